@@ -1,0 +1,7 @@
+#include "render/version.h"
+
+namespace airlight {
+
+const char* version() { return AIRLIGHT_VERSION; }
+
+}  // namespace airlight
