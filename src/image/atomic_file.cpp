@@ -1,0 +1,139 @@
+#include "image/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "error.h"
+
+namespace airlight {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+Error unwritable(const std::filesystem::path& path, int error) {
+  return Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
+}
+
+/// The file that a chain of symbolic links ends at, whether it exists or not.
+std::filesystem::path follow_links(std::filesystem::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40; ++links) {  // as many as Linux follows
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
+/// Creates a file of a new name; `path` becomes that name.
+int create_beside(const std::filesystem::path& target, std::filesystem::path& path, mode_t mode) {
+  static std::atomic<unsigned> counter = 0;
+  while (true) {
+    path = target.parent_path() / fmt::format(".airlight-{}-{}.tmp", ::getpid(), counter++);
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file >= 0 || errno != EEXIST) return file;
+  }
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path target)
+    : target_(std::move(target)), final_(follow_links(target_)) {
+  struct stat status;
+  const bool exists = ::stat(final_.c_str(), &status) == 0;
+  if (!exists && errno != ENOENT) throw unwritable(target_, errno);
+  if (exists && S_ISDIR(status.st_mode)) throw unwritable(target_, EISDIR);
+  if (final_.filename().empty()) throw unwritable(target_, final_.empty() ? ENOENT : EISDIR);
+
+  if (exists && !S_ISREG(status.st_mode)) {
+    file_ = ::open(final_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else if (exists && ::access(final_.c_str(), W_OK) != 0) {
+    throw unwritable(target_, errno);  // a rename could replace it, but its owner closed it
+  } else {
+    file_ = create_beside(final_, temporary_, 0666);
+    if (file_ < 0) temporary_.clear();
+    if (file_ >= 0 && exists) ::fchmod(file_, status.st_mode & 07777);
+  }
+  if (file_ < 0) throw unwritable(target_, errno);
+  buffer_.reserve(buffer_size);
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  if (error_ != 0) fail(error_);
+  if (buffer_.size() + bytes.size() > buffer_size) flush();
+  if (bytes.size() > buffer_size)
+    write_out(bytes.data(), bytes.size());
+  else
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+}
+
+void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+std::uint64_t AtomicFile::position() const { return flushed_ + buffer_.size(); }
+
+void AtomicFile::seek(std::uint64_t position) {
+  if (position == this->position()) return;
+  flush();
+  if (::lseek(file_, off_t(position), SEEK_SET) < 0) fail(errno);
+  flushed_ = position;
+}
+
+void AtomicFile::commit() {
+  flush();
+  if (!temporary_.empty() && ::fsync(file_) != 0) fail(errno);
+  const int file = std::exchange(file_, -1);
+  if (::close(file) != 0) fail(errno);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);
+  temporary_.clear();
+}
+
+void AtomicFile::flush() {
+  if (error_ != 0) fail(error_);
+  write_out(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void AtomicFile::write_out(const std::byte* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(file_, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(errno);
+    data += written;
+    size -= std::size_t(written);
+    flushed_ += std::uint64_t(written);
+  }
+}
+
+void AtomicFile::fail(int error) {
+  error_ = error;
+  throw unwritable(target_, error);
+}
+
+void check_writable(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  // Opening a pipe would wait for its reader, or end what he reads.
+  if (type == std::filesystem::file_type::fifo) return;
+  AtomicFile{path};
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace airlight

@@ -1,0 +1,43 @@
+#include "image/read_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "error.h"
+
+namespace airlight {
+namespace {
+
+template <class Bytes>
+Bytes read_all(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  int error = file < 0 ? errno : 0;
+  Bytes bytes;
+  std::size_t size = 0;
+  while (error == 0) {  // sizes are not asked for: pipes have none
+    if (size == bytes.size()) bytes.resize(size + size / 2 + (std::size_t{1} << 16));
+    const ssize_t got = ::read(file, bytes.data() + size, bytes.size() - size);
+    if (got == 0) break;
+    if (got > 0) size += std::size_t(got);
+    if (got < 0 && errno != EINTR) error = errno;
+  }
+  if (file >= 0) ::close(file);
+  if (error != 0)
+    throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(error)));
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& path) {
+  return read_all<std::vector<std::byte>>(path);
+}
+
+std::string read_text(const std::filesystem::path& path) { return read_all<std::string>(path); }
+
+}  // namespace airlight
