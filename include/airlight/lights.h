@@ -1,0 +1,13 @@
+#pragma once
+#include <variant>
+
+#include "lights/directional.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// Every kind of light there is. To add one: its file in lights/ and its name here.
+using Lights = std::variant<Directional>;
+
+static_assert(Light<Directional>);
+
+}  // namespace airlight::inline AIRLIGHT_ISA

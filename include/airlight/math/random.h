@@ -1,0 +1,87 @@
+#pragma once
+/// Owen-scrambled Sobol points by hashing (Burley 2020, with Vegdahl's 2021 constants): sample i of a pixel is point i of
+/// a sequence of its own, so that aligned blocks of a power of two are jittered strata, wherever a render was cut.
+#include "vec.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// A well mixed bijective hash of 32 bits (of the family of Wellons' lowbias32); U is std::uint32_t or a batch of them.
+template <class U>
+constexpr U mix_bits(U x) noexcept {
+  x = x ^ (x >> 16);
+  x = x * U(0x21f0aaadu);
+  x = x ^ (x >> 15);
+  x = x * U(0x735a2d97u);
+  return x ^ (x >> 15);
+}
+
+template <class U>
+U reverse_bits(U x) noexcept {
+  x = ((x >> 1) & U(0x55555555u)) | ((x & U(0x55555555u)) << 1);
+  x = ((x >> 2) & U(0x33333333u)) | ((x & U(0x33333333u)) << 2);
+  x = ((x >> 4) & U(0x0f0f0f0fu)) | ((x & U(0x0f0f0f0fu)) << 4);
+  x = ((x >> 8) & U(0x00ff00ffu)) | ((x & U(0x00ff00ffu)) << 8);
+  return (x >> 16) | (x << 16);
+}
+
+/// Permutes so that a bit depends on the bits below it only (Laine and Karras 2011): between two reversals, that is an
+/// Owen scramble.
+template <class U>
+U laine_karras(U x, U seed) noexcept {
+  x = x ^ (x * U(0x3d20adeau));
+  x = x + seed;
+  x = x * ((seed >> 16) | U(1u));
+  x = x ^ (x * U(0x05526c56u));
+  return x ^ (x * U(0x53a22864u));
+}
+
+/// Owen's nested uniform scramble of a 32 bit fraction.
+template <class U>
+U owen_scramble(U x, U seed) noexcept {
+  return reverse_bits(laine_karras(reverse_bits(x), seed));
+}
+
+/// The second Sobol dimension of an index, whose first is its bits reversed.
+constexpr std::uint32_t sobol_second(std::uint32_t index) noexcept {
+  std::uint32_t result = 0;
+  for (std::uint32_t v = 0x80000000u; index != 0; index >>= 1, v ^= v >> 1)
+    if (index & 1u) result ^= v;
+  return result;
+}
+
+template <Real F>
+struct Vec2 {
+  F x, y;
+};
+
+/// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are independent.
+template <Real F>
+struct Sampler {
+  UInt<F> pixel_hash;  ///< of (seed, pixel), a lane a pixel
+
+  /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in each interval of length 2^-k.
+  F one(std::uint32_t index, std::uint32_t stream) const noexcept {
+    // reverse(index) is the van der Corput point; its scramble reverses it once more.
+    return unit_interval<F>(
+        reverse_bits(laine_karras(UInt<F>(index), mix_bits(pixel_hash ^ UInt<F>(mix_bits(stream))))));
+  }
+
+  /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
+  Vec2<F> two(std::uint32_t index, std::uint32_t stream) const noexcept {
+    const UInt<F> hash = mix_bits(pixel_hash ^ UInt<F>(mix_bits(stream)));
+    const UInt<F> shuffled = owen_scramble(UInt<F>(index), hash);
+    const UInt<F> x = reverse_bits(shuffled);
+    UInt<F> y(0u), v(0x80000000u), rest = shuffled;
+    for (int bit = 0; bit < 32; ++bit, rest = rest >> 1, v = v ^ (v >> 1))
+      y = y ^ (v & (UInt<F>(0u) - (rest & UInt<F>(1u))));
+    return {unit_interval<F>(owen_scramble(x, mix_bits(hash ^ UInt<F>(0x9e3779b9u)))),
+            unit_interval<F>(owen_scramble(y, mix_bits(hash ^ UInt<F>(0x7f4a7c15u))))};
+  }
+};
+
+/// The hash from which a pixel's samples follow.
+constexpr std::uint32_t pixel_hash(std::uint32_t seed, std::uint32_t x, std::uint32_t y) noexcept {
+  return mix_bits(mix_bits(mix_bits(seed ^ 0xa511e9b3u) + x) + (y ^ 0x63d83595u));
+}
+
+}  // namespace airlight::inline AIRLIGHT_ISA

@@ -1,0 +1,39 @@
+#pragma once
+#include "describe.h"
+#include "way_out.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// A ray in a shape's own coordinates, where its formulas are simple. t stays the distance in the world.
+template <Real F>
+struct LocalRay {
+  Vec3<F> o, d;
+
+  Vec3<F> operator()(F t) const noexcept {
+    return {fma(t, d.x, o.x), fma(t, d.y, o.y), fma(t, d.z, o.z)};
+  }
+};
+
+/// Components of the direction to the light below this, relative to its length, count as zero: the distance out through a face
+/// that is all but parallel to the light is ill-conditioned (error eps / component), while the exact effect on T / t_max is at most 3e-4.
+template <Real F>
+inline constexpr Scalar<F> parallel_below = Scalar<F>(std::same_as<F, double> ? 1e-12 : 1e-5);
+
+/// Where a medium is. A shape is plain numbers in world space; its `space()` is what a ray needs of it, once a frame:
+///
+///     space.point(p), space.vector(v)     world to local (affine)
+///     space.clip(ray)                     the interval of t inside, not before the ray's origin
+///     space.outward(w)                    what is shared by all points when light comes from w (local)
+///     space.way_out(ray, outward, t_max)  the way out for a ray that starts inside
+///     space.distance_out(p, outward)      from p along w to the boundary  [m]
+template <class S>
+concept Shape = requires(const S shape, LocalRay<double> ray, Vec3<double> v) {
+  { S::name } -> std::convertible_to<const char*>;
+  { S::meaning } -> std::convertible_to<const char*>;
+  { shape.space().point(v) } -> std::same_as<Vec3<double>>;
+  { shape.space().vector(v) } -> std::same_as<Vec3<double>>;
+  { shape.space().clip(ray) } -> std::same_as<Interval<double>>;
+  { shape.space().distance_out(v, shape.space().outward(v)) } -> std::same_as<double>;
+};
+
+}  // namespace airlight::inline AIRLIGHT_ISA

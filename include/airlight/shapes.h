@@ -1,0 +1,15 @@
+#pragma once
+#include <variant>
+
+#include "shapes/box.h"
+#include "shapes/convex.h"
+#include "shapes/unbounded.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// Every shape a medium can have. To add one: its file in shapes/ and its name here.
+using Shapes = std::variant<Box, Convex, Unbounded>;
+
+static_assert(Shape<Box> && Shape<Convex> && Shape<Unbounded>);
+
+}  // namespace airlight::inline AIRLIGHT_ISA

@@ -1,0 +1,77 @@
+#pragma once
+#include <airlight/describe.h>
+
+#include <cstdint>
+#include <string>
+
+namespace airlight {
+
+enum class Edges { cached, per_step };
+enum class PixelFilter { box, tent, gaussian };
+enum class Visibility { embree, analytic };
+enum class InstructionSet { best, reference, scalar, baseline, avx2, avx512 };
+
+template <>
+inline constexpr Word<Edges> words<Edges>[] = {
+    {"cached", Edges::cached, "the trapezoids of a ray are found once"},
+    {"per_step", Edges::per_step, "the medium is intersected at every sample, as a plain march does"},
+};
+template <>
+inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
+    {"box", PixelFilter::box, "the pixel's square"},
+    {"tent", PixelFilter::tent, "a tent of radius one pixel"},
+    {"gaussian", PixelFilter::gaussian, "standard deviation 0.5, cut at 1.5 pixels"},
+};
+template <>
+inline constexpr Word<Visibility> words<Visibility>[] = {
+    {"embree", Visibility::embree, "ray casting by Embree, in float"},
+    {"analytic", Visibility::analytic, "every object in turn, in the kernel's own arithmetic; for exact tests"},
+};
+template <>
+inline constexpr Word<InstructionSet> words<InstructionSet>[] = {
+    {"best", InstructionSet::best, "the widest this machine has"},
+    {"double", InstructionSet::reference, "one lane in double precision, the reference"},
+    {"scalar", InstructionSet::scalar, "one lane in float"},
+    {"baseline", InstructionSet::baseline, "4 lanes, any x86-64 (SSE2)"},
+    {"avx2", InstructionSet::avx2, "8 lanes"},
+    {"avx512", InstructionSet::avx512, "16 lanes"},
+};
+
+/// How a picture is made. Every number can stand in the scene file's [render] table and on the command line.
+struct RenderSettings {
+  std::string estimator = "rewv";  ///< a short name, or placement+form
+  Edges edges = Edges::cached;
+  std::string mix_with = "distance";
+  double mix_weight = 0.5;
+  std::int64_t spp = 16;
+  std::int64_t samples_per_ray = 4;  ///< 0: all
+  std::int64_t seed = 0;
+  std::int64_t first_sample = 0;
+  PixelFilter filter = PixelFilter::tent;
+  Visibility visibility = Visibility::embree;
+  InstructionSet isa = InstructionSet::best;
+  std::int64_t threads = 0;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    using S = RenderSettings;
+    field("estimator", &S::estimator, unit::none, any_number(),
+          "how light in the medium is summed: rm, mcds, mcwvds, rees, reds, rewv, closed_form, or placement+form");
+    field("edges", &S::edges, unit::none, any_number(), "where a sample's way to the boundary comes from");
+    field("mix_with", &S::mix_with, unit::none, any_number(),
+          "the placement that placement mix combines with whole_volume");
+    field("mix_weight", &S::mix_weight, unit::one, open(0, 1), "the part of the samples that mix_with draws");
+    field("spp", &S::spp, unit::none, closed(1, 1 << 28), "visibility samples a pixel gets for each light");
+    field("samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),
+          "how many of them share a camera ray, a power of two; 0: all, through the pixel's centre");
+    field("seed", &S::seed, unit::none, closed(0, 4294967295.), "another seed gives other noise");
+    field("first_sample", &S::first_sample, unit::none, closed(0, 1 << 28),
+          "where a range of samples starts, for pictures to be merged");
+    field("filter", &S::filter, unit::none, any_number(), "how camera rays spread about a pixel's centre");
+    field("visibility", &S::visibility, unit::none, any_number(), "what answers shadow rays");
+    field("isa", &S::isa, unit::none, any_number(), "the arithmetic and instruction set to compute with");
+    field("threads", &S::threads, unit::none, closed(0, 4096), "worker threads; 0: one a core");
+  }
+};
+
+}  // namespace airlight

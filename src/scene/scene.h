@@ -1,0 +1,78 @@
+#pragma once
+#include <airlight/lights.h>
+#include <airlight/medium.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "../image/texture.h"
+#include "render_settings.h"
+
+namespace airlight {
+
+/// A pinhole camera.
+struct Camera {
+  Vec3<double> position{0, 0, 5};  ///< [m]
+  Vec3<double> target{0, 0, 0};    ///< the point in the middle of the picture  [m]
+  Vec3<double> up{0, 1, 0};        ///< need not be perpendicular to the view, only not parallel to it
+  double fov = 40;                 ///< vertical  [degrees]
+};
+
+/// Size of a picture in pixels.
+struct Resolution {
+  int width = 640;
+  int height = 360;
+};
+
+/// How a surface reflects and filters light. Both sides are alike. Light that crosses the surface is multiplied by
+/// (1 − opacity) · tint; what it reflects diffusely is multiplied by opacity.
+struct Material {
+  Rgb<double> albedo{0.5, 0.5, 0.5};  ///< diffuse, multiplied by the texture if there is one
+  int albedo_texture = -1;            ///< index into Scene::textures, −1 without
+  double opacity = 1;                 ///< multiplied by the texture's if there is one
+  int opacity_texture = -1;           ///< index into Scene::textures
+  bool opacity_from_alpha = false;    ///< the opacity texture's alpha counts, else its red
+  double cutoff = -1;                 ///< if not negative, opacity below it counts as 0, from it on as 1
+  Rgb<double> tint{1, 1, 1};          ///< of the light let through
+
+  bool is_opaque() const { return opacity >= 1 && opacity_texture < 0; }
+};
+
+/// Triangles in world space.
+struct Mesh {
+  std::vector<Vec3<float>> positions;  ///< [m]
+  std::vector<Vec3<float>> normals;    ///< one a position, or none: the triangles' own then count
+  std::vector<std::array<float, 2>> uvs;  ///< one a position, or none; v points up
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// An exact sphere.
+struct Sphere {
+  Vec3<double> centre;  ///< [m]
+  double radius = 1;    ///< [m]
+};
+
+/// Something light meets. Objects keep the order of the file: their index is their id in a picture's layer.
+struct Object {
+  std::string name;
+  std::variant<Mesh, Sphere> geometry;
+  Material material;
+};
+
+/// What a scene file means: plain data, in double where it is not bulk, SI units.
+struct Scene {
+  Camera camera;
+  Resolution resolution;
+  Rgb<double> background{0, 0, 0};  ///< radiance behind everything  [W/(m2 sr)]
+  Rgb<double> ambient{0, 0, 0};     ///< radiance around surfaces; lights surfaces only  [W/(m2 sr)]
+  std::vector<Texture> textures;
+  std::vector<Object> objects;
+  std::optional<Medium> medium;
+  std::vector<Lights> lights;
+  RenderSettings render;
+  std::vector<std::string> assumptions;  ///< what a model left open and was filled in, a sentence each
+};
+
+}  // namespace airlight
