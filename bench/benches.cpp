@@ -1,0 +1,7 @@
+#include "row.h"
+
+namespace airlight::bench {
+
+std::vector<Bench> benches() { return {}; }
+
+}  // namespace airlight::bench
