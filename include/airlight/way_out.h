@@ -10,22 +10,26 @@ struct Interval {
   F t_enter, t_exit;
 };
 
-/// How far light travels in the medium: from the camera ray's entry to the point p(t) on it, and from there along w
-/// (towards the light) out of the shape. In a convex shape the second part is the lower envelope of one line a face,
+/// How far light travels in the medium: from the camera ray's entry to the point p(t) on it, and
+/// from there along w (towards the light) out of the shape. In a convex shape the second part is
+/// the lower envelope of one line a face,
 ///
 ///     d(t) = min_i (a_i + b_i t),
 ///
-/// so that t + d(t) is concave and piecewise linear: its pieces are the trapezoids of Velinov 2021 section 4, found without
-/// walking from corner to corner. t is counted from the entry.
+/// so that t + d(t) is concave and piecewise linear: its pieces are the trapezoids of Velinov 2021
+/// section 4, found without walking from corner to corner. t is counted from the entry.
 template <Real F, int max_segments>
 struct WayOut {
-  int segments = 0;              ///< in use by any lane; a lane that needs fewer has empty ones
-  F t[max_segments + 1];         ///< nodes, ascending from 0 to t_max  [m]
-  F length[max_segments + 1];    ///< t + d(t) at the nodes  [m]
-  F a[max_segments];             ///< the lines that touch the envelope  [m]
+  int segments = 0;            ///< in use by any lane; a lane that needs fewer has empty ones
+  F t[max_segments + 1];       ///< nodes, ascending from 0 to t_max  [m]
+  F length[max_segments + 1];  ///< t + d(t) at the nodes  [m]
+  F a[max_segments];           ///< the lines that touch the envelope  [m]
   F b[max_segments];
 
   F t_max() const noexcept { return t[segments]; }
+
+  /// The whole way through p(t).  [m]
+  F length_at(F at) const noexcept { return at + distance_out(at); }
 
   /// From p(t) along w to the boundary.  [m]
   F distance_out(F at) const noexcept {
@@ -34,10 +38,10 @@ struct WayOut {
     return max(d, F(0));  // below zero by rounding only
   }
 
-  /// Sets the lengths from the nodes. Reading the envelope, not the line left of each node, makes the integral
-  /// insensitive to first order to rounding of the nodes.
+  /// Sets the lengths from the nodes. Reading the envelope, not the line left of each node, makes
+  /// the integral insensitive to first order to rounding of the nodes.
   void measure() noexcept {
-    for (int i = 0; i <= segments; ++i) length[i] = t[i] + distance_out(t[i]);
+    for (int i = 0; i <= segments; ++i) length[i] = length_at(t[i]);
   }
 
   /// The same way restricted to [from, to].
@@ -49,29 +53,25 @@ struct WayOut {
   }
 };
 
-/// A distance along the ray and the length of the whole way through p(t).  [m]
-template <Real F>
-struct WaySample {
-  F t, length;
-};
-
-/// The way out under one extinction coefficient: the integral of transmittance over its trapezoids, and distances
-/// drawn in proportion to transmittance (whole-volume sampling).
+/// The way out under one extinction coefficient: the integral of transmittance over its trapezoids,
+/// and distances drawn in proportion to transmittance (whole-volume sampling).
 ///
 ///     T = ∫ e^{−σ (t + d(t))} dt = e^{−depth} · total    [m]
 ///
-/// Depths are kept relative to the smallest, so that `total` and what is drawn from it never underflow.
+/// Depths are kept relative to the smallest, so that `total` and what is drawn from it never
+/// underflow.
 template <Real F, int max_segments>
 struct Trapezoids {
   F depth_at[max_segments + 1];  ///< optical depth at the nodes above `depth`, >= 0
   F integral[max_segments];      ///< of transmittance over a segment, relative to e^{−depth}  [m]
   F total = F(0);                ///< their sum, in [0, t_max]  [m]
-  F depth = F(0);                ///< the smallest optical depth: the way is concave, so that of an end
+  F depth = F(0);  ///< the smallest optical depth: the way is concave, so that of an end
 
   Trapezoids() = default;
 
-  /// Velinov 2021 Eq. 6 summed, without slopes or division by sigma_t: a segment of width w between the depths x <= y
-  /// holds w e^{−x} φ(y − x).  Relative error 5e-15 (1 + depth) in double, 1.1e-6 (1 + depth) in float.
+  /// Velinov 2021 Eq. 6 summed, without slopes or division by sigma_t: a segment of width w between
+  /// the depths x <= y holds w e^{−x} φ(y − x).  Relative error 5e-15 (1 + depth) in double, 1.1e-6
+  /// (1 + depth) in float.
   Trapezoids(const WayOut<F, max_segments>& way, F sigma_t) noexcept {
     const int n = way.segments;
     depth = sigma_t * min(way.length[0], way.length[n]);
@@ -84,7 +84,8 @@ struct Trapezoids {
       const F y = abs(depth_at[i + 1] - depth_at[i]);
       const F high = max(transmittance[i], transmittance[i + 1]);
       const F low = min(transmittance[i], transmittance[i + 1]);
-      const F mean = select(y < F(1), high * phi_below_one(min(y, F(1))), (high - low) / max(y, F(1)));
+      const F mean =
+          select(y < F(1), high * phi_below_one(min(y, F(1))), (high - low) / max(y, F(1)));
       integral[i] = (way.t[i + 1] - way.t[i]) * mean;
       total = total + integral[i];
     }
@@ -93,13 +94,14 @@ struct Trapezoids {
   /// T, the integral of transmittance over the way.  [m]
   F transmittance_integral() const noexcept { return exp(-depth) * total; }
 
-  /// A distance with density e^{−σ length} / T: the distribution function inverted, monotone in u in [0, 1] so that strata
-  /// stay strata (Velinov 2021 section 5). Within a segment the inverse starts from the end of smaller depth, where
-  /// nothing can overflow.  CDF(sample(u)) − u < 6e-12 in double, 2e-6 in float.
-  WaySample<F> sample(const WayOut<F, max_segments>& way, F u) const noexcept {
+  /// A distance with density e^{−σ length} / T: the distribution function inverted, monotone in u
+  /// in [0, 1] so that strata stay strata (Velinov 2021 section 5). Within a segment the inverse
+  /// starts from the end of smaller depth, where nothing can overflow.  CDF(sample(u)) − u < 6e-12
+  /// in double, 2e-6 in float.
+  F sample(const WayOut<F, max_segments>& way, F u) const noexcept {
     const F x = u * total;
     F below = F(0), seen = F(0);
-    F t0 = way.t[0], t1 = way.t[1], length0 = way.length[0], length1 = way.length[1];
+    F t0 = way.t[0], t1 = way.t[1];
     F depth0 = depth_at[0], depth1 = depth_at[1], here = integral[0];
     for (int i = 1; i < way.segments; ++i) {
       seen = seen + integral[i - 1];
@@ -108,8 +110,6 @@ struct Trapezoids {
       here = select(beyond, integral[i], here);
       t0 = select(beyond, way.t[i], t0);
       t1 = select(beyond, way.t[i + 1], t1);
-      length0 = select(beyond, way.length[i], length0);
-      length1 = select(beyond, way.length[i + 1], length1);
       depth0 = select(beyond, depth_at[i], depth0);
       depth1 = select(beyond, depth_at[i + 1], depth1);
     }
@@ -117,24 +117,12 @@ struct Trapezoids {
     const Mask<F> rising = depth1 >= depth0;
     const F from_low = exponential_fraction(abs(depth1 - depth0), select(rising, v, F(1) - v));
     const F g = select(rising, from_low, F(1) - from_low);
-    return {fma(g, t1 - t0, t0), fma(g, length1 - length0, length0)};
+    return clamp(fma(g, t1 - t0, t0), t0, t1);
   }
 
   /// The density of `sample` at a point whose way has this length.  [1/m]
   F pdf(F length, F sigma_t) const noexcept {
     return exp(min(depth - sigma_t * length, F(0))) / select(total > F(0), total, F(1));
-  }
-
- private:
-  /// The part g of a segment over which the exponential from depth 0 to y holds the part v of its integral.
-  static F exponential_fraction(F y, F v) noexcept {
-    // Below this depth the quotient divides rounding by y; the series is exact to y^3.
-    const F small(std::same_as<F, double> ? 1e-5 : 2e-3f);
-    const F w = F(1) - v;
-    const F series = v * (F(1) - y * w * F(0.5) * (F(1) - y * (w - v) * F(1. / 3)));
-    const F z = min(v * one_minus_exp(y), F(1));
-    const F inverse = -log1p_minus(z) / max(y, small);
-    return clamp(select(y < small, series, inverse), F(0), F(1));
   }
 };
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "../image/texture.h"
+#include "image/texture.h"
 #include "render_settings.h"
 
 namespace airlight {

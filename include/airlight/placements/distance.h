@@ -1,0 +1,61 @@
+#pragma once
+#include "../placement.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// In proportion to transmittance along the camera ray, which ends at the surface or where the ray
+/// leaves the medium. The bound matters: the unbounded exponential loses 10 dB at 4 samples in a
+/// unit box.
+struct Distance {
+  static constexpr auto name = "distance";
+  static constexpr auto meaning = "in proportion to the transmittance of the camera ray alone";
+
+  template <class Section>
+  struct On;
+
+  template <class Section, class Strength>
+  On<Section> on(const Section& section, const Strength& strength) const noexcept {
+    return {section, strength};
+  }
+};
+
+template <Real F, int channels, class Space>
+struct Distance::On<Section<F, channels, Space>> {
+  const Section<F, channels, Space>& section;
+  Channels<F, channels> norm;  ///< ∫ e^{−σ t} dt over the section  [m]
+  Channels<F, channels> chance;
+
+  On(const Section<F, channels, Space>& s, const Channels<F, channels>& strength) noexcept
+      : section(s) {
+    Channels<F, channels> carried;
+    for (int c = 0; c < channels; ++c) {
+      norm[c] = s.t_max * phi(s.sigma_t[c] * s.t_max);
+      carried[c] = strength[c] * norm[c];
+    }
+    chance = chances<F, channels>(carried);
+  }
+
+  F sample(F u) const noexcept {
+    return draw_by_channel<F, channels>(chance, u, [&](int c, F v) {
+      return section.t_max * exponential_fraction(section.sigma_t[c] * section.t_max, v);
+    });
+  }
+
+  F pdf(F t, F) const noexcept {
+    F sum(0);
+    for (int c = 0; c < channels; ++c) {
+      const F density = exp(-section.sigma_t[c] * t) / select(norm[c] > F(0), norm[c], F(1));
+      sum = fma(chance[c], density, sum);
+    }
+    return sum;
+  }
+
+  Channels<F, channels> weights(F t, F length) const noexcept {
+    if constexpr (channels == 1)
+      return {norm[0] * exp(-section.sigma_t[0] * (length - t))};
+    else
+      return balanced_weights<F, channels>(section.transmittance(length), pdf(t, length));
+  }
+};
+
+}  // namespace airlight::inline AIRLIGHT_ISA

@@ -1,0 +1,59 @@
+#pragma once
+#include "distance.h"
+#include "equidistant.h"
+#include "whole_volume.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// Whole-volume samples mixed with another placement's by one-sample multiple importance sampling
+/// (Velinov 2021 section 1.2): the density is the mixture's, so no weight exceeds that of either
+/// placement over its part.
+struct Mixed {
+  enum class Partner { equidistant, distance };
+
+  Partner partner = Partner::distance;
+  double part = 0.5;  ///< of the samples that the partner draws, in (0, 1)
+
+  static constexpr auto name = "mix";
+  static constexpr auto meaning = "whole_volume mixed with another placement in one sample";
+
+  template <class Section>
+  struct On;
+
+  template <class Section, class Strength>
+  On<Section> on(const Section& section, const Strength& strength) const noexcept {
+    return {*this, WholeVolume{}.on(section, strength), Equidistant{}.on(section, strength),
+            Distance{}.on(section, strength)};
+  }
+};
+
+template <Real F, int channels, class Space>
+struct Mixed::On<Section<F, channels, Space>> {
+  using In = Section<F, channels, Space>;
+  const Mixed& mix;
+  WholeVolume::On<In> whole_volume;
+  Equidistant::On<In> equidistant;
+  Distance::On<In> distance;
+
+  F sample(F u) const noexcept {
+    const F part(Scalar<F>(mix.part));
+    const Mask<F> first = u < part;
+    const F v = clamp(select(first, u / part, (u - part) / (F(1) - part)), F(0), F(1));
+    const F partner = mix.partner == Partner::distance ? distance.sample(v) : equidistant.sample(v);
+    return select(first, partner, whole_volume.sample(v));
+  }
+
+  F pdf(F t, F length) const noexcept {
+    const F partner =
+        mix.partner == Partner::distance ? distance.pdf(t, length) : equidistant.pdf(t, length);
+    return fma(F(Scalar<F>(mix.part)), partner,
+               F(Scalar<F>(1 - mix.part)) * whole_volume.pdf(t, length));
+  }
+
+  Channels<F, channels> weights(F t, F length) const noexcept {
+    return balanced_weights<F, channels>(whole_volume.section.transmittance(length),
+                                         pdf(t, length));
+  }
+};
+
+}  // namespace airlight::inline AIRLIGHT_ISA
