@@ -1,0 +1,23 @@
+# What `cmake --install` puts where, so that find_package(airlight) works. In src/ a header is included as
+# "render/render.h", by others as <airlight/render/render.h>: the rooms lie beside the core's headers.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/airlight)
+
+install(DIRECTORY include/airlight DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY src/image src/scene src/render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight
+  FILES_MATCHING PATTERN "*.h")
+install(FILES src/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight)
+
+install(TARGETS airlight_core EXPORT airlight-core-targets)
+install(TARGETS airlight EXPORT airlight-targets)
+install(EXPORT airlight-core-targets NAMESPACE airlight:: DESTINATION ${package_dir})
+install(EXPORT airlight-targets NAMESPACE airlight:: DESTINATION ${package_dir})
+
+configure_package_config_file(cmake/airlight-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/airlight-config.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/airlight-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/airlight-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/airlight-config-version.cmake
+  DESTINATION ${package_dir})
