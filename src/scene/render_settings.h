@@ -2,6 +2,7 @@
 #include <airlight/describe.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace airlight {
@@ -14,7 +15,8 @@ enum class InstructionSet { best, reference, scalar, baseline, avx2, avx512 };
 template <>
 inline constexpr Word<Edges> words<Edges>[] = {
     {"cached", Edges::cached, "the trapezoids of a ray are found once"},
-    {"per_step", Edges::per_step, "the medium is intersected at every sample, as a plain march does"},
+    {"per_step", Edges::per_step,
+     "the medium is intersected at every sample, as a plain march does"},
 };
 template <>
 inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
@@ -25,7 +27,8 @@ inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
 template <>
 inline constexpr Word<Visibility> words<Visibility>[] = {
     {"embree", Visibility::embree, "ray casting by Embree, in float"},
-    {"analytic", Visibility::analytic, "every object in turn, in the kernel's own arithmetic; for exact tests"},
+    {"analytic", Visibility::analytic,
+     "every object in turn, in the kernel's own arithmetic; for exact tests"},
 };
 template <>
 inline constexpr Word<InstructionSet> words<InstructionSet>[] = {
@@ -37,7 +40,8 @@ inline constexpr Word<InstructionSet> words<InstructionSet>[] = {
     {"avx512", InstructionSet::avx512, "16 lanes"},
 };
 
-/// How a picture is made. Every number can stand in the scene file's [render] table and on the command line.
+/// How a picture is made. Every number can stand in the scene file's [render] table and on the
+/// command line.
 struct RenderSettings {
   std::string estimator = "rewv";  ///< a short name, or placement+form
   Edges edges = Edges::cached;
@@ -46,7 +50,7 @@ struct RenderSettings {
   std::int64_t spp = 16;
   std::int64_t samples_per_ray = 4;  ///< 0: all
   std::int64_t seed = 0;
-  std::int64_t first_sample = 0;
+  std::optional<std::int64_t> first_sample;
   PixelFilter filter = PixelFilter::tent;
   Visibility visibility = Visibility::embree;
   InstructionSet isa = InstructionSet::best;
@@ -56,20 +60,27 @@ struct RenderSettings {
   static constexpr void describe(Visitor&& field) {
     using S = RenderSettings;
     field("estimator", &S::estimator, unit::none, any_number(),
-          "how light in the medium is summed: rm, mcds, mcwvds, rees, reds, rewv, closed_form, or placement+form");
-    field("edges", &S::edges, unit::none, any_number(), "where a sample's way to the boundary comes from");
+          "how light in the medium is summed: rm, mcds, mcwvds, rees, reds, rewv, closed_form, or "
+          "placement+form");
+    field("edges", &S::edges, unit::none, any_number(),
+          "where a sample's way to the boundary comes from");
     field("mix_with", &S::mix_with, unit::none, any_number(),
           "the placement that placement mix combines with whole_volume");
-    field("mix_weight", &S::mix_weight, unit::one, open(0, 1), "the part of the samples that mix_with draws");
-    field("spp", &S::spp, unit::none, closed(1, 1 << 28), "visibility samples a pixel gets for each light");
-    field("samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),
-          "how many of them share a camera ray, a power of two; 0: all, through the pixel's centre");
+    field("mix_weight", &S::mix_weight, unit::one, open(0, 1),
+          "the part of the samples that mix_with draws");
+    field("spp", &S::spp, unit::none, closed(1, 1 << 28),
+          "visibility samples a pixel gets for each light");
+    field(
+        "samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),
+        "how many of them share a camera ray, a power of two; 0: all, through the pixel's centre");
     field("seed", &S::seed, unit::none, closed(0, 4294967295.), "another seed gives other noise");
     field("first_sample", &S::first_sample, unit::none, closed(0, 1 << 28),
           "where a range of samples starts, for pictures to be merged");
-    field("filter", &S::filter, unit::none, any_number(), "how camera rays spread about a pixel's centre");
+    field("filter", &S::filter, unit::none, any_number(),
+          "how camera rays spread about a pixel's centre");
     field("visibility", &S::visibility, unit::none, any_number(), "what answers shadow rays");
-    field("isa", &S::isa, unit::none, any_number(), "the arithmetic and instruction set to compute with");
+    field("isa", &S::isa, unit::none, any_number(),
+          "the arithmetic and instruction set to compute with");
     field("threads", &S::threads, unit::none, closed(0, 4096), "worker threads; 0: one a core");
   }
 };

@@ -1,0 +1,79 @@
+#pragma once
+#include <optional>
+
+#include "estimate.h"
+#include "lights.h"
+#include "math/random.h"
+#include "medium.h"
+#include "section.h"
+#include "world.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// Samples first, first + 1, … of a pixel, all on one of its camera rays.
+struct SampleRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// A packet of camera rays and the part of each that lies in the medium.
+template <Real F>
+struct MediumRay {
+  Vec3<F> origin;     ///< of the camera ray, in the world  [m]
+  Vec3<F> direction;  ///< unit length
+  LocalRay<F> entry;  ///< the ray from its entry on, in the coordinates of the medium's shape
+  F t_enter;          ///< [m]
+  F t_max;         ///< the length inside, up to the surface or the exit; 0 where there is none  [m]
+  Mask<F> active;  ///< lanes with t_max > 0
+  std::uint32_t index = 0;  ///< of the ray in its pixel
+  bool filtered = false;    ///< whether glass or cut-outs may stand between the camera and t_max
+};
+
+/// The streams of random numbers a pixel has; each light has its own.
+namespace stream {
+inline constexpr std::uint32_t camera = 0;
+constexpr std::uint32_t distance(int light) noexcept { return 8u + 4u * std::uint32_t(light); }
+constexpr std::uint32_t disc(int light) noexcept { return 9u + 4u * std::uint32_t(light); }
+constexpr std::uint32_t surface(int light) noexcept { return 10u + 4u * std::uint32_t(light); }
+}  // namespace stream
+
+/// Which half of the samples one belongs to, by the parity of its bits: of every aligned block of a
+/// power of two, each half is as well stratified as a block of half the size. The two halves tell
+/// the error of the whole.
+constexpr int half_of(std::uint32_t index) noexcept {
+  index ^= index >> 16, index ^= index >> 8, index ^= index >> 4;
+  return int((0x6996u >> (index & 15u)) & 1u);
+}
+
+/// The sums of a pixel in two halves, each sample counting once: divided by their number they are
+/// the pixel's `Estimate`.
+template <class F>
+using Halves = std::array<Estimate<F>, 2>;
+
+/// The extinction of a medium as one or three channels.
+template <Real F, int channels>
+Channels<F, channels> extinction(const Medium& medium) noexcept {
+  Channels<F, channels> sigma_t;
+  for (int c = 0; c < channels; ++c) sigma_t[c] = F(Scalar<F>(medium.sigma_t[c]));
+  return sigma_t;
+}
+
+/// One or three channels as a colour.
+template <Real F, std::size_t channels>
+Rgb<F> to_rgb(const std::array<F, channels>& c) noexcept {
+  if constexpr (channels == 1)
+    return Rgb<F>(c[0]);
+  else
+    return {c[0], c[1], c[2]};
+}
+
+/// A way to estimate the light that a medium scatters once from a light to the camera. It says what
+/// it can't serve with a reason; null: it can.
+template <class E>
+concept Estimator = requires(const E estimator, const Medium& medium, const Lights& light) {
+  { E::name } -> std::convertible_to<const char*>;
+  { E::meaning } -> std::convertible_to<const char*>;
+  { estimator.unsupported(medium, light) } -> std::same_as<const char*>;
+};
+
+}  // namespace airlight::inline AIRLIGHT_ISA

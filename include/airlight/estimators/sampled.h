@@ -1,0 +1,129 @@
+#pragma once
+#include "../estimator.h"
+#include "../forms.h"
+#include "../math/warp.h"
+#include "../placements.h"
+
+namespace airlight::inline AIRLIGHT_ISA {
+
+/// What `Sampled` tells a watcher of each sample. Times count from the entry.
+template <Real F>
+struct WatchedSample {
+  std::uint32_t index;
+  F t;                ///< [m]
+  F pdf;              ///< [1/m]
+  Rgb<F> weight;      ///< transmittance over pdf  [m]
+  Rgb<F> visibility;  ///< 0 to 1
+};
+
+/// Samples along the camera ray, each asking once whether light arrives: any placement with any
+/// form, the stochastic estimators of Velinov 2021 section 3 and more.
+struct Sampled {
+  Placements placement = WholeVolume{};
+  Forms form = Ratio{};
+  /// Intersects the shape at every sample instead of finding the way out once a ray: the plain
+  /// march that the paper compares with.
+  bool intersect_every_step = false;
+
+  static constexpr auto name = "sampled";
+  static constexpr auto meaning = "samples along the camera ray: a placement and a form";
+
+  /// Discs up to this size are sampled about one way out through their centre; the closed form of
+  /// the centre differs from the disc's mean by 1e-4 at most. Wider ones get a way out of their own
+  /// for each camera ray.  [degrees]
+  static constexpr double narrow_disc = 0.6;
+
+  const char* unsupported(const Medium& medium, const Lights& light) const noexcept {
+    if (std::holds_alternative<Unbounded>(medium.shape) &&
+        std::holds_alternative<Directional>(light))
+      return "a directional light never arrives in an unbounded medium; give the medium a box or a "
+             "convex shape";
+    if (intersect_every_step && !(std::holds_alternative<Equidistant>(placement) &&
+                                  std::holds_alternative<MonteCarlo>(form)))
+      return "edges = \"per_step\" is the plain march: it goes with rm (equidistant+monte_carlo) "
+             "only";
+    return nullptr;
+  }
+
+  /// Adds the samples of one camera ray for one light. `channels` is 1 for a grey medium and 3
+  /// otherwise; `watch` is told of every sample.
+  template <int channels, Real F, class Space, World<F> W, class Watch>
+  void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
+           const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
+           const Sampler<F>& sampler, const W& world, Halves<F>& sums,
+           Watch&& watch) const noexcept {
+    const bool disc = light.angular_diameter > 0;
+    const bool wide = light.angular_diameter > narrow_disc;
+    const F cap(Scalar<F>(light.cap_height()));
+    const Vec3<F> centre(light.toward());
+    const Vec3<F> w =
+        wide ? uniform_cap(centre, cap, sampler.two(ray.index, stream::disc(light_index))) : centre;
+
+    using Along = Section<F, channels, Space>;
+    Along section(space, ray.entry, space.vector(w), ray.t_max, extinction<F, channels>(medium));
+    if (!intersect_every_step) section.trace_way_out();
+
+    const F toward_camera = evaluate(medium.phase, dot(w, ray.direction));
+    const Rgb<F> strength = Rgb<F>(medium.sigma_s * light.irradiance) * toward_camera;
+    Channels<F, channels>
+        carried;  // decides between channels only, so the common factor is left out
+    for (int c = 0; c < channels; ++c)
+      carried[c] = F(Scalar<F>(medium.sigma_s[c] * light.irradiance[c]));
+
+    std::array<Rgb<F>, 2> occluded, unoccluded;
+    std::array<std::uint32_t, 2> count{};
+    std::visit(
+        [&](const Placement auto& place) {
+          const auto placed = place.on(section, carried);
+          for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
+            const F t = placed.sample(sampler.one(i, stream::distance(light_index)));
+            const F length = intersect_every_step
+                                 ? t + space.clip(LocalRay<F>{section.ray(t), section.w}).t_exit
+                                 : section.way.length_at(t);
+            Rgb<F> weight = to_rgb<F>(placed.weights(t, length));
+            Vec3<F> to_light = w;
+            if (disc && !wide) {
+              to_light = uniform_cap(centre, cap, sampler.two(i, stream::disc(light_index)));
+              const F own =
+                  t + space.distance_out(section.ray(t), space.outward(space.vector(to_light)));
+              Channels<F, channels> change;
+              for (int c = 0; c < channels; ++c)
+                change[c] = exp(section.sigma_t[c] * (length - own));
+              const F phase = evaluate(medium.phase, dot(to_light, ray.direction));
+              weight = weight * to_rgb<F>(change) * (phase / toward_camera);
+            }
+            const F along = ray.t_enter + t;
+            const Vec3<F> from = ray.origin + ray.direction * along;
+            Rgb<F> visible = world.transmit(from, to_light, F(far_away), light_index, ray.active);
+            if (ray.filtered)
+              visible *= world.transmit(ray.origin, ray.direction, along, light_index, ray.active);
+            watch(WatchedSample<F>{i, t, placed.pdf(t, length), weight, visible});
+            const int half = half_of(halve_by_ray ? ray.index : i);
+            occluded[half] += weight * visible;
+            unoccluded[half] += weight;
+            ++count[half];
+          }
+        },
+        placement);
+
+    const Rgb<F> analytic =
+        intersect_every_step ? Rgb<F>() : strength * to_rgb<F>(section.integral);
+    std::visit(
+        [&](const Form auto& make) {
+          for (int half = 0; half < 2; ++half)
+            sums[half] += make(analytic * F(Scalar<F>(count[half])), strength * occluded[half],
+                               strength * unoccluded[half]);
+        },
+        form);
+  }
+
+  template <int channels, Real F, class Space, World<F> W>
+  void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
+           const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
+           const Sampler<F>& sampler, const W& world, Halves<F>& sums) const noexcept {
+    add<channels>(medium, space, light, light_index, ray, samples, halve_by_ray, sampler, world,
+                  sums, [](const WatchedSample<F>&) {});
+  }
+};
+
+}  // namespace airlight::inline AIRLIGHT_ISA
