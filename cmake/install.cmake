@@ -13,6 +13,8 @@ install(TARGETS airlight EXPORT airlight-targets)
 install(EXPORT airlight-core-targets NAMESPACE airlight:: DESTINATION ${package_dir})
 install(EXPORT airlight-targets NAMESPACE airlight:: DESTINATION ${package_dir})
 
+list(TRANSFORM AIRLIGHT_PACKAGES REPLACE "(.+)" "\"\\1\"" OUTPUT_VARIABLE quoted_packages)
+list(JOIN quoted_packages " " quoted_packages)
 configure_package_config_file(cmake/airlight-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/airlight-config.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/airlight-config-version.cmake
