@@ -162,6 +162,17 @@ Mask<F> mask_from_bits(std::uint32_t mask) noexcept {
   }
 }
 
+/// Writes `lanes<F>` integers to memory: -1 where the mask is set, else 0.
+template <Real F>
+void store_mask(Mask<F> mask, std::int32_t* values) noexcept {
+  if constexpr (lanes<F> == 1) *values = mask ? -1 : 0;
+  else {
+    using Int = xsimd::batch<std::int32_t>;
+    const F ones = xsimd::bitwise_cast<F>(Int(-1));
+    xsimd::bitwise_cast<Int>(xsimd::select(mask, ones, F(0.f))).store_unaligned(values);
+  }
+}
+
 /// A number in [0, 1) from the upper 24 bits, the same in every arithmetic.
 template <Real F>
 F unit_interval(UInt<F> x) noexcept {
