@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,7 +19,9 @@ Bytes read_all(const std::filesystem::path& path) {
   int error = file < 0 ? errno : 0;
   Bytes bytes;
   std::size_t size = 0;
-  while (error == 0) {  // sizes are not asked for: pipes have none
+  struct stat about {};  // its size is a hint, to grow once: pipes have none
+  if (error == 0 && ::fstat(file, &about) == 0) bytes.resize(std::size_t(about.st_size) + 1);
+  while (error == 0) {
     if (size == bytes.size()) bytes.resize(size + size / 2 + (std::size_t{1} << 16));
     const ssize_t got = ::read(file, bytes.data() + size, bytes.size() - size);
     if (got == 0) break;

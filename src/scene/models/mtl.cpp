@@ -1,0 +1,150 @@
+#include "scene/models/mtl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "error.h"
+#include "image/read_file.h"
+#include "scene/models/decode_together.h"
+
+namespace airlight {
+namespace {
+
+/// Exporters on Windows write its separators.
+std::string with_slashes(std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+double fraction(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 1.0; }
+
+Rgb<double> fraction(const tinyobj::real_t (&c)[3]) {
+  return {fraction(c[0]), fraction(c[1]), fraction(c[2])};
+}
+
+bool is_black(const Rgb<double>& c) { return c == Rgb<double>(0, 0, 0); }
+
+bool has_transparent_texels(const Texture& texture) {
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
+    if (texture.rgba[i] < 255) return true;
+  return false;
+}
+
+/// A texture that a material wants. Materials that want the same share it.
+struct Wanted {
+  std::string name;
+  bool srgb, clamp;
+  const char* key;  ///< of the first material to want it, for errors
+  const std::string* material;
+
+  bool operator==(const Wanted& other) const {
+    return name == other.name && srgb == other.srgb && clamp == other.clamp;
+  }
+};
+
+Wanted albedo_texture(const tinyobj::material_t& mtl) {
+  return {mtl.diffuse_texname, true, mtl.diffuse_texopt.clamp, "map_Kd", &mtl.name};
+}
+
+Wanted opacity_texture(const tinyobj::material_t& mtl) {
+  return {mtl.alpha_texname, false, mtl.alpha_texopt.clamp, "map_d", &mtl.name};
+}
+
+Texture load(const Wanted& wanted, const std::filesystem::path& folder) {
+  try {
+    Texture texture = load_texture(folder / with_slashes(wanted.name));
+    texture.srgb = wanted.srgb;
+    if (wanted.clamp) texture.wrap_u = texture.wrap_v = Wrap::clamp;
+    return texture;
+  } catch (const Error& error) {
+    throw Error(fmt::format("{} (wanted by {} of material \"{}\")", error.what(), wanted.key,
+                            *wanted.material));
+  }
+}
+
+/// The textures of all materials, each once, and where they stand among the model's.
+class TextureList {
+ public:
+  void want(Wanted wanted) {
+    if (!wanted.name.empty() && std::find(list_.begin(), list_.end(), wanted) == list_.end())
+      list_.push_back(std::move(wanted));
+  }
+
+  void load_all(const std::filesystem::path& folder, std::vector<Texture>& textures) {
+    begin_ = textures.size();
+    std::vector<std::function<Texture()>> loaders;
+    for (const Wanted& wanted : list_) loaders.push_back([&] { return load(wanted, folder); });
+    for (Texture& texture : decode_together(loaders)) textures.push_back(std::move(texture));
+  }
+
+  /// The index of a texture, −1 if it has no name.
+  int find(const Wanted& wanted) const {
+    if (wanted.name.empty()) return -1;
+    return int(begin_) + int(std::find(list_.begin(), list_.end(), wanted) - list_.begin());
+  }
+
+ private:
+  std::vector<Wanted> list_;
+  std::size_t begin_ = 0;
+};
+
+Material convert(const tinyobj::material_t& mtl, int albedo_texture, int opacity_texture,
+                 const std::vector<Texture>& textures) {
+  const auto cuts_out = [&](int i) {
+    return i >= 0 && has_transparent_texels(textures[std::size_t(i)]);
+  };
+  Material material;
+  material.albedo = fraction(mtl.diffuse);
+  material.albedo_texture = albedo_texture;
+  // Some exporters write black beside a texture, which would hide it.
+  if (albedo_texture >= 0 && is_black(material.albedo)) material.albedo = Rgb<double>(1);
+  material.opacity = fraction(mtl.dissolve);
+  // Some write d 0 beside a texture of opacity.
+  if (opacity_texture >= 0 && material.opacity == 0) material.opacity = 1;
+  material.opacity_texture = opacity_texture >= 0       ? opacity_texture
+                             : cuts_out(albedo_texture) ? albedo_texture
+                                                        : -1;
+  // A picture with transparent texels is meant by its alpha, any other by its brightness.
+  material.opacity_from_alpha = cuts_out(material.opacity_texture);
+  const Rgb<double> filter = fraction(mtl.transmittance);
+  if (!is_black(filter)) material.tint = filter;  // black is also what a file without Tf gives
+  return material;
+}
+
+}  // namespace
+
+bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                           std::map<std::string, int>* indices, std::string* warning,
+                           std::string* error) {
+  const std::filesystem::path path = folder_ / with_slashes(name);
+  if (!std::filesystem::is_regular_file(path)) {
+    missing_.push_back(name);
+    return false;
+  }
+  std::istringstream text(read_text(path));
+  tinyobj::LoadMtl(indices, materials, &text, warning, error);
+  return true;
+}
+
+std::vector<Material> convert_mtl(const std::vector<const tinyobj::material_t*>& materials,
+                                  const std::filesystem::path& folder,
+                                  std::vector<Texture>& textures) {
+  TextureList list;
+  for (const auto* mtl : materials) {
+    if (mtl == nullptr) continue;
+    list.want(albedo_texture(*mtl));
+    list.want(opacity_texture(*mtl));
+  }
+  list.load_all(folder, textures);
+  std::vector<Material> converted;
+  for (const auto* mtl : materials)
+    converted.push_back(mtl == nullptr ? Material{}
+                                       : convert(*mtl, list.find(albedo_texture(*mtl)),
+                                                 list.find(opacity_texture(*mtl)), textures));
+  return converted;
+}
+
+}  // namespace airlight

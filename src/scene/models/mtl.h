@@ -1,0 +1,38 @@
+#pragma once
+#include <tiny_obj_loader.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/models/model.h"
+
+namespace airlight {
+
+/// Reads the MTL files that an OBJ file beside them names; what is missing is remembered, not an
+/// error.
+class MtlReader : public tinyobj::MaterialReader {
+ public:
+  explicit MtlReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* indices, std::string* warning,
+                  std::string* error) override;
+
+  const std::vector<std::string>& missing() const { return missing_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::string> missing_;
+};
+
+/// Turns materials as an MTL file describes them into ours, in the same order, and adds their
+/// textures to the model's. Kd, map_Kd, d or Tr, map_d and Tf count. An alpha channel of map_Kd
+/// cuts out if there is no map_d, as leaves do. No material (null) is grey. Names of textures count
+/// from `folder`. Throws Error if one cannot be read.
+std::vector<Material> convert_mtl(const std::vector<const tinyobj::material_t*>& materials,
+                                  const std::filesystem::path& folder,
+                                  std::vector<Texture>& textures);
+
+}  // namespace airlight

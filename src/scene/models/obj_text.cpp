@@ -1,0 +1,173 @@
+#include "scene/models/obj_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+#include "error.h"
+
+namespace airlight {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// The text after leading blanks and up to the next end of line, which is taken away from `rest`.
+std::string_view next_line(std::string_view& rest) {
+  const std::size_t end = rest.find_first_of("\r\n");
+  std::string_view line = rest.substr(0, end);
+  const bool two = end != rest.npos && rest.substr(end, 2) == "\r\n";
+  rest.remove_prefix(end == rest.npos ? rest.size() : end + (two ? 2 : 1));
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  return line;
+}
+
+std::string_view next_word(std::string_view& line) {
+  std::size_t begin = 0;
+  while (begin < line.size() && is_blank(line[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < line.size() && !is_blank(line[end])) ++end;
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+/// A line as an error shows it: its beginning, without bytes that a terminal would act on.
+std::string shown(std::string_view line) {
+  std::string text(line.substr(0, 60));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 32) c = '?';
+  return line.size() > 60 ? text + "..." : text;
+}
+
+enum class Kind : std::uint8_t { blank, digit, number, word };
+
+constexpr std::array<Kind, 256> kinds = [] {
+  std::array<Kind, 256> table{};
+  table.fill(Kind::word);
+  for (const char c : {' ', '\t', '\r'}) table[static_cast<unsigned char>(c)] = Kind::blank;
+  for (const char c : {'+', '-', '.', 'e', 'E'})
+    table[static_cast<unsigned char>(c)] = Kind::number;
+  for (char c = '0'; c <= '9'; ++c) table[static_cast<unsigned char>(c)] = Kind::digit;
+  return table;
+}();
+
+/// Whether the first `wanted` words are made of digits and their signs.
+bool starts_with_numbers(const char* at, const char* end, int wanted) {
+  while (wanted > 0) {
+    while (at != end && kinds[static_cast<unsigned char>(*at)] == Kind::blank) ++at;
+    bool digits = false;
+    for (; at != end; ++at) {
+      const Kind kind = kinds[static_cast<unsigned char>(*at)];
+      if (kind == Kind::blank) break;
+      if (kind == Kind::word) return false;
+      digits = digits || kind == Kind::digit;
+    }
+    if (!digits) return false;
+    --wanted;
+  }
+  return true;
+}
+
+struct Counts {
+  std::int64_t positions = 0, uvs = 0, normals = 0;
+
+  void add(std::string_view key) {
+    positions += key == "v";
+    uvs += key == "vt";
+    normals += key == "vn";
+  }
+};
+
+/// Checks one index, "7" or "-1", against how many there are in the whole file and up to its line.
+void check_index(std::string_view digits, std::int64_t all, std::int64_t so_far, const char* what,
+                 const std::string& where, std::string_view line) {
+  std::int64_t index = 0;
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  const bool is_number = problem == std::errc{} && end == digits.data() + digits.size();
+  if (!is_number || index == 0 || index > all || index < -so_far)
+    throw Error(
+        fmt::format("{}: \"{}\" names {} {}; there are {}, counted from 1, or from -1 backwards",
+                    where, shown(line), what, shown(digits), all));
+}
+
+void check_face(std::string_view words, const Counts& all, const Counts& so_far,
+                const std::string& where, std::string_view line) {
+  for (std::string_view word; !(word = next_word(words)).empty();) {
+    const std::size_t slash = word.find('/');
+    check_index(word.substr(0, slash), all.positions, so_far.positions, "vertex", where, line);
+    if (slash == word.npos) continue;
+    word.remove_prefix(slash + 1);
+    const std::size_t second = word.find('/');
+    if (const auto uv = word.substr(0, second); !uv.empty())
+      check_index(uv, all.uvs, so_far.uvs, "texture coordinate", where, line);
+    if (second == word.npos) continue;
+    check_index(word.substr(second + 1), all.normals, so_far.normals, "normal", where, line);
+  }
+}
+
+void check_finite(std::string_view words, const std::string& where, std::string_view line) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string word(next_word(words));
+    if (!std::isfinite(std::strtof(word.c_str(), nullptr)))
+      throw Error(fmt::format(
+          "{}: \"{}\" has a coordinate beyond the range of a float; positions below 3e38", where,
+          shown(line)));
+  }
+}
+
+/// Calls `visit(key, words, line, where)` for each line; `where` makes "file:line" on demand.
+template <class Visit>
+void for_each_line(std::string_view text, const std::string& file, Visit&& visit) {
+  for (std::int64_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = next_line(text);
+    std::string_view words = line;
+    const std::string_view key = next_word(words);
+    visit(key, words, line, [&] { return fmt::format("{}:{}", file, number); });
+  }
+}
+
+}  // namespace
+
+void check_obj_numbers(std::string_view text, const std::string& file) {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto check = [&](const char* line, const char* line_end) {
+    while (line != line_end && is_blank(*line)) ++line;
+    if (line_end - line < 2 || line[0] != 'v') return;
+    const bool position = is_blank(line[1]);
+    const bool named = line_end - line > 2 && is_blank(line[2]);
+    const bool normal = named && line[1] == 'n';
+    const bool uv = named && line[1] == 't';
+    if (!position && !normal && !uv) return;
+    const int wanted = uv ? 1 : 3;
+    if (starts_with_numbers(line + 2, line_end, wanted)) return;
+    const auto number = 1 + std::count(text.data(), line, '\n');
+    throw Error(fmt::format("{}:{}: \"{}\" lacks numbers; {} finite numbers", file, number,
+                            shown({line, std::size_t(line_end - line)}),
+                            wanted == 3 ? "three" : "one to three"));
+  };
+  while (at != end) {
+    const auto* stop = static_cast<const char*>(std::memchr(at, '\n', std::size_t(end - at)));
+    if (stop == nullptr) stop = end;
+    check(at, stop);
+    at = stop == end ? end : stop + 1;
+  }
+}
+
+void explain_broken_obj(std::string_view text, const std::string& file) {
+  Counts all, so_far;
+  for_each_line(text, file, [&](auto key, auto, auto, auto) { all.add(key); });
+  for_each_line(text, file, [&](auto key, auto words, auto line, auto where) {
+    so_far.add(key);
+    if (key == "f") check_face(words, all, so_far, where(), line);
+    if (key == "v") check_finite(words, where(), line);
+  });
+}
+
+}  // namespace airlight

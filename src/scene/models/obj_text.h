@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace airlight {
+
+/// The parser of OBJ files reads words as zeros and does not look at indices. These read the text
+/// again, strictly, to tell a user the line. `file` stands for it in the errors; positive indices
+/// may point forwards, as parsers allow.
+
+/// Throws Error at the first line `v`, `vn` or `vt` without its numbers. Fast: runs for every file.
+void check_obj_numbers(std::string_view text, const std::string& file);
+
+/// Throws Error at the first face with an index of nothing, or else at the first position that is
+/// not finite in float.
+void explain_broken_obj(std::string_view text, const std::string& file);
+
+}  // namespace airlight
