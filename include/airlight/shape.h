@@ -15,7 +15,8 @@ struct LocalRay {
 };
 
 /// Components of the direction to the light below this, relative to its length, count as zero: the distance out through a face
-/// that is all but parallel to the light is ill-conditioned (error eps / component), while the exact effect on T / t_max is at most 3e-4.
+/// that is all but parallel to the light is ill-conditioned (error eps / component), while the exact effect on T is confined
+/// to where the ray is nearer than that to the face: below 3e-4 of t_max but for rays that glide along it.
 template <Real F>
 inline constexpr Scalar<F> parallel_below = Scalar<F>(std::same_as<F, double> ? 1e-12 : 1e-5);
 

@@ -1,0 +1,200 @@
+#pragma once
+#include <airlight/math/vec.h>
+
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <random>
+#include <vector>
+
+#include "exact_way.h"
+
+namespace airlight::test {
+
+/// Reproducible random numbers.
+class Random {
+ public:
+  explicit Random(unsigned seed) : generator_(seed) {}
+
+  double uniform() { return std::ldexp(double(generator_() >> 11), -53); }
+  double uniform(double a, double b) { return a + (b - a) * uniform(); }
+  double log_uniform(double a, double b) { return a * std::pow(b / a, uniform()); }
+  int below(int n) { return int(uniform() * n); }
+  double sign() { return uniform() < 0.5 ? -1 : 1; }
+  template <class T, std::size_t n>
+  T of(const T (&choices)[n]) {
+    return choices[below(int(n))];
+  }
+  Vec3<double> in_the_cube() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
+  /// Uniform over the sphere.
+  Vec3<double> direction() {
+    for (;;) {
+      const Vec3<double> v = in_the_cube();
+      const double square = airlight::dot(v, v);
+      if (square > 1e-2 && square <= 1) return normalize(v);
+    }
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+/// A camera ray in the box [-1, 1]^3 and where light comes from.
+struct BoxRay {
+  Vec3<double> o, d, w;
+  double t_max = 0;
+
+  friend std::ostream& operator<<(std::ostream& out, const BoxRay& ray) {
+    const auto put = [&](const char* name, const Vec3<double>& v) {
+      out << name << " {" << v.x << ", " << v.y << ", " << v.z << "} ";
+    };
+    put("o", ray.o), put("d", ray.d), put("w", ray.w);
+    return out << "t_max " << ray.t_max;
+  }
+};
+
+inline Point point(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+
+inline ExactWay exact(const BoxRay& ray, Exact parallel_below = 0) {
+  return {box_body(), point(ray.o), point(ray.d), point(ray.w), ray.t_max, parallel_below};
+}
+
+/// What can be special about a ray, a light and a box.
+enum class Kind {
+  generic,
+  into_the_light,         // w = d
+  light_behind,           // w = -d
+  nearly_into_the_light,  // w = d + 1e-6
+  barely_off_the_light,   // w = d + 1e-9
+  light_nearly_behind,    // w = -d + 1e-6
+  light_along_an_axis,
+  view_along_an_axis,
+  both_along_axes,
+  light_parallel_to_a_face,
+  view_parallel_to_a_face,
+  both_parallel_to_faces,
+  gliding_in_a_face,
+  from_a_corner,
+  tied,  // two or three faces met at once
+  from_outside,
+  level,  // the length of the way stays the same along some of the ray
+};
+inline constexpr int kinds = int(Kind::level) + 1;
+
+inline BoxRay ray_of(Kind kind, Random& random) {
+  const auto axis = [&] {
+    Vec3<double> v;
+    (random.below(3) == 0 ? v.x : random.below(2) == 0 ? v.y : v.z) = random.sign();
+    return v;
+  };
+  const auto component = [](Vec3<double>& v, int k) -> double& {
+    return k == 0 ? v.x : k == 1 ? v.y : v.z;
+  };
+  const auto in_a_plane = [&] {
+    Vec3<double> v = random.direction();
+    component(v, random.below(3)) = 0;
+    return normalize(v);
+  };
+  const auto diagonal = [&] {
+    return Vec3<double>(random.sign(), random.sign(), random.sign()) * (1 / std::sqrt(3.));
+  };
+  BoxRay ray{random.in_the_cube(), random.direction(), random.direction()};
+  switch (kind) {
+    case Kind::generic:
+      break;
+    case Kind::into_the_light:
+      ray.w = ray.d;
+      break;
+    case Kind::light_behind:
+      ray.w = -ray.d;
+      break;
+    case Kind::nearly_into_the_light:
+      ray.w = normalize(ray.d + random.in_the_cube() * 1e-6);
+      break;
+    case Kind::barely_off_the_light:
+      ray.w = normalize(ray.d + random.in_the_cube() * 1e-9);
+      break;
+    case Kind::light_nearly_behind:
+      ray.w = normalize(random.in_the_cube() * 1e-6 - ray.d);
+      break;
+    case Kind::light_along_an_axis:
+      ray.w = axis();
+      break;
+    case Kind::view_along_an_axis:
+      ray.d = axis();
+      break;
+    case Kind::both_along_axes:
+      ray.w = axis(), ray.d = axis();
+      break;
+    case Kind::light_parallel_to_a_face:
+      ray.w = in_a_plane();
+      break;
+    case Kind::view_parallel_to_a_face:
+      ray.d = in_a_plane();
+      break;
+    case Kind::both_parallel_to_faces:
+      ray.w = in_a_plane(), ray.d = in_a_plane();
+      break;
+    case Kind::gliding_in_a_face: {
+      const int k = random.below(3);
+      component(ray.o, k) = random.sign();
+      component(ray.d, k) = 0;
+      ray.d = normalize(ray.d);
+      break;
+    }
+    case Kind::from_a_corner:
+      ray.o = {random.sign(), random.sign(), random.sign()};
+      for (int k = 0; k < 3; ++k) component(ray.d, k) = std::copysign(ray.d[k], -ray.o[k]);
+      break;
+    case Kind::tied:
+      ray.o = random.below(2) == 0 ? Vec3<double>() : diagonal() * random.uniform();
+      ray.w = diagonal();
+      if (random.below(2) == 0) ray.d = diagonal();
+      break;
+    case Kind::from_outside:
+      do {
+        ray.o = random.direction() * random.uniform(2, 6);
+        ray.d = normalize(random.in_the_cube() - ray.o);
+      } while (std::abs(ray.d.x) < 1e-3 || std::abs(ray.d.y) < 1e-3 || std::abs(ray.d.z) < 1e-3);
+      break;
+    case Kind::level: {
+      ray.w = ray.d;
+      const int k = random.below(3);
+      component(ray.w, k) = -ray.d[k];
+      break;
+    }
+  }
+  Exact enter = 0, exit = 1e9;
+  for (const HalfSpace& face : box_body()) {
+    const Exact facing = dot(face.n, point(ray.d)), above = face.h - dot(face.n, point(ray.o));
+    if (facing > 0) exit = std::min(exit, above / facing);
+    if (facing < 0) enter = std::max(enter, above / facing);
+  }
+  ray.o = ray.o + ray.d * double(enter);
+  ray.t_max = double(std::max<Exact>(exit - enter, 0));
+  if (random.below(2) == 0) ray.t_max *= random.uniform();  // a surface before the exit
+  return ray;
+}
+
+/// `n` rays of every kind. `least` bounds the components of w from below, where they are not zero:
+/// the distance out through a face nearly parallel to the light is ill-conditioned.
+inline std::vector<BoxRay> rays_of_every_kind(int n, double least, unsigned seed) {
+  Random random(seed);
+  std::vector<BoxRay> rays;
+  for (int kind = 0; kind < kinds; ++kind)
+    for (int i = 0; i < n;) {
+      const BoxRay ray = ray_of(Kind(kind), random);
+      const auto fine = [&](double w) { return w == 0 || std::abs(w) > least; };
+      if (!fine(ray.w.x) || !fine(ray.w.y) || !fine(ray.w.z)) continue;
+      rays.push_back(ray);
+      ++i;
+    }
+  return rays;
+}
+
+/// 0 or spread evenly over the orders of magnitude from 1e-3 to 1e4.  [1/m]
+inline double any_sigma(Random& random) {
+  return random.below(16) == 0 ? 0 : random.log_uniform(1e-3, 1e4);
+}
+
+}  // namespace airlight::test
