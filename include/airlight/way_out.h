@@ -103,7 +103,7 @@ struct Trapezoids {
     F below = F(0), seen = F(0);
     F t0 = way.t[0], t1 = way.t[1];
     F depth0 = depth_at[0], depth1 = depth_at[1], here = integral[0];
-    for (int i = 1; i < way.segments; ++i) {
+    for (int i = 1; i < max_segments && i < way.segments; ++i) {
       seen = seen + integral[i - 1];
       const Mask<F> beyond = (x >= seen) & (integral[i] > F(0));
       below = select(beyond, seen, below);

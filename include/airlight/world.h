@@ -12,7 +12,7 @@ namespace airlight::inline AIRLIGHT_ISA {
 /// between for glass and cut-outs. `light` is the index of the light asked for. What it gives for
 /// lanes that are not active does not matter.
 template <class W, class F>
-concept World = requires(const W world, Vec3<F> v, F t, Mask<F> active) {
+concept AnswersVisibility = requires(const W world, Vec3<F> v, F t, Mask<F> active) {
   { world.transmit(v, v, t, 0, active) } -> std::same_as<Rgb<F>>;
 };
 

@@ -101,10 +101,10 @@ void World::attach(std::uint32_t id) {
   rtcReleaseGeometry(geometry);
 }
 
-void World::locate_on_sphere(std::uint32_t object, Vec3<float> normal, float& u,
+void World::locate_on_sphere(std::uint32_t object, const std::array<float, 3>& normal, float& u,
                              float& v) const noexcept {
   if (!std::holds_alternative<Sphere>(scene_->objects[object].geometry)) return;
-  const auto at = sphere_coordinates(normal);
+  const auto at = sphere_coordinates({normal[0], normal[1], normal[2]});
   u = at[0];
   v = at[1];
 }

@@ -72,8 +72,10 @@ class World {
   template <class Handle>
   using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-  /// Names the point of a sphere by its normal; leaves points of meshes as they are.
-  void locate_on_sphere(std::uint32_t object, Vec3<float> normal, float& u,
+  /// Names the point of a sphere by its normal; leaves points of meshes as they are. Called from
+  /// objects of every instruction set, so its signature has none of the core's types, whose names
+  /// differ between them.
+  void locate_on_sphere(std::uint32_t object, const std::array<float, 3>& normal, float& u,
                         float& v) const noexcept;
   void attach(std::uint32_t id);
 

@@ -47,7 +47,7 @@ struct Sampled {
 
   /// Adds the samples of one camera ray for one light. `channels` is 1 for a grey medium and 3
   /// otherwise; `watch` is told of every sample.
-  template <int channels, Real F, class Space, World<F> W, class Watch>
+  template <int channels, Real F, class Space, AnswersVisibility<F> W, class Watch>
   void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
            const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
            const Sampler<F>& sampler, const W& world, Halves<F>& sums,
@@ -117,7 +117,7 @@ struct Sampled {
         form);
   }
 
-  template <int channels, Real F, class Space, World<F> W>
+  template <int channels, Real F, class Space, AnswersVisibility<F> W>
   void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
            const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
            const Sampler<F>& sampler, const W& world, Halves<F>& sums) const noexcept {

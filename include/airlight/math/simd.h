@@ -1,14 +1,15 @@
 #pragma once
-/// One vocabulary for one lane and for many: the core is written over a real type F that is `double`
-/// (the reference), `float`, or a SIMD batch with one pixel a lane. Only this header knows the SIMD library.
+/// One vocabulary for one lane and for many: the core is written over a real type F that is
+/// `double` (the reference), `float`, or a SIMD batch with one pixel a lane. Only this header knows
+/// the SIMD library.
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <xsimd/xsimd.hpp>
 
-// Everything in the core lives in an inline namespace named after the instruction set it was compiled
-// for, so that objects compiled for different ones can be linked into one program.
+// Everything in the core lives in an inline namespace named after the instruction set it was
+// compiled for, so that objects compiled for different ones can be linked into one program.
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__)
 #define AIRLIGHT_ISA avx512
 #elif defined(__AVX2__) && defined(__FMA__)
@@ -120,28 +121,44 @@ F clamp(F x, F low, F high) noexcept {
 /// The scalar of a lane.
 template <Real F>
 Scalar<F> lane(F x, int i) noexcept {
-  if constexpr (lanes<F> == 1) return x;
-  else return x.get(std::size_t(i));
+  if constexpr (lanes<F> == 1)
+    return x;
+  else
+    return x.get(std::size_t(i));
 }
 
 /// Reads `lanes<F>` scalars from memory.
 template <Real F, class T>
 F load(const T* values) noexcept {
-  if constexpr (lanes<F> == 1) return F(*values);
-  else return F::load_unaligned(values);
+  if constexpr (lanes<F> == 1)
+    return F(*values);
+  else
+    return F::load_unaligned(values);
+}
+
+/// Reads `lanes<F>` unsigned numbers from memory.
+template <Real F>
+UInt<F> load_bits(const std::uint32_t* values) noexcept {
+  if constexpr (lanes<F> == 1)
+    return *values;
+  else
+    return UInt<F>::load_unaligned(values);
 }
 
 /// Writes `lanes<F>` scalars to memory.
 template <Real F, class T>
 void store(F x, T* values) noexcept {
-  if constexpr (lanes<F> == 1) *values = T(x);
-  else x.store_unaligned(values);
+  if constexpr (lanes<F> == 1)
+    *values = T(x);
+  else
+    x.store_unaligned(values);
 }
 
 /// The bits of a mask, lane 0 lowest.
 template <Real F>
 std::uint32_t bits(Mask<F> mask) noexcept {
-  if constexpr (lanes<F> == 1) return mask ? 1u : 0u;
+  if constexpr (lanes<F> == 1)
+    return mask ? 1u : 0u;
   else {
     alignas(64) float flags[lanes<F>];
     xsimd::select(mask, F(1.f), F(0.f)).store_aligned(flags);
@@ -154,7 +171,8 @@ std::uint32_t bits(Mask<F> mask) noexcept {
 /// A mask from its bits, lane 0 lowest.
 template <Real F>
 Mask<F> mask_from_bits(std::uint32_t mask) noexcept {
-  if constexpr (lanes<F> == 1) return (mask & 1u) != 0;
+  if constexpr (lanes<F> == 1)
+    return (mask & 1u) != 0;
   else {
     alignas(64) float flags[lanes<F>];
     for (int i = 0; i < lanes<F>; ++i) flags[i] = float((mask >> i) & 1u);
@@ -165,7 +183,8 @@ Mask<F> mask_from_bits(std::uint32_t mask) noexcept {
 /// Writes `lanes<F>` integers to memory: -1 where the mask is set, else 0.
 template <Real F>
 void store_mask(Mask<F> mask, std::int32_t* values) noexcept {
-  if constexpr (lanes<F> == 1) *values = mask ? -1 : 0;
+  if constexpr (lanes<F> == 1)
+    *values = mask ? -1 : 0;
   else {
     using Int = xsimd::batch<std::int32_t>;
     const F ones = xsimd::bitwise_cast<F>(Int(-1));
@@ -176,7 +195,8 @@ void store_mask(Mask<F> mask, std::int32_t* values) noexcept {
 /// A number in [0, 1) from the upper 24 bits, the same in every arithmetic.
 template <Real F>
 F unit_interval(UInt<F> x) noexcept {
-  if constexpr (lanes<F> == 1) return F(x >> 8) * F(0x1p-24);
+  if constexpr (lanes<F> == 1)
+    return F(x >> 8) * F(0x1p-24);
   else {
     using Int = xsimd::batch<std::int32_t>;
     return xsimd::to_float(xsimd::bitwise_cast<Int>(x >> 8)) * F(0x1p-24f);

@@ -1,0 +1,39 @@
+#pragma once
+#include <airlight/estimators.h>
+
+#include <vector>
+
+#include "geometry/world.h"
+#include "render/film.h"
+
+namespace airlight {
+
+/// Where the rays of a picture start and how they spread: the direction of pixel coordinates (x, y)
+/// is corner + x · right + y · down, not normalised.
+struct CameraFrame {
+  Vec3<double> position, corner, right, down;
+};
+
+/// Everything a kernel needs of a scene, prepared once a picture. It refers to the scene and the
+/// world.
+struct Frame {
+  const Scene& scene;
+  const World& world;
+  CameraFrame camera;
+  Estimators estimator;
+  PixelFilter filter = PixelFilter::tent;
+  bool through_centre = false;        ///< every sample of a pixel shares the ray through its centre
+  std::uint32_t samples_per_ray = 1;  ///< counts where they do not
+  std::uint32_t surface_samples =
+      1;  ///< shadow rays of a surface towards a light with a disc, a camera ray
+  std::uint32_t seed = 0;
+};
+
+/// A part of the picture that one worker renders, with its sums in double.
+struct Tile {
+  PixelRect rect;  ///< in pixels of the whole picture
+  SampleRange samples;
+  std::vector<PixelSums<double>> pixels;  ///< row by row
+};
+
+}  // namespace airlight

@@ -1,0 +1,7 @@
+#include "render/tile_kernel.h"
+
+namespace airlight {
+
+extern const Kernel kernel_baseline = make_kernel<FloatBatch>(InstructionSet::baseline, "baseline");
+
+}  // namespace airlight

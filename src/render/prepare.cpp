@@ -1,0 +1,119 @@
+#include "render/prepare.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "error.h"
+
+namespace airlight {
+namespace {
+
+/// The names of a family's members, as "a, b, c".
+template <class Family>
+std::string names_of() {
+  std::string names;
+  [&]<class... Members>(const std::variant<Members...>*) {
+    ((names += std::string(names.empty() ? "" : ", ") + Members::name), ...);
+  }(static_cast<const Family*>(nullptr));
+  return names;
+}
+
+CameraFrame camera_frame(const Camera& camera, Resolution resolution) {
+  const Vec3<double> forward = normalize(camera.target - camera.position);
+  const Vec3<double> right = normalize(cross(forward, camera.up));
+  const Vec3<double> up = cross(right, forward);
+  const double half_height = std::tan(camera.fov * (std::numbers::pi / 360));
+  const double pixel = 2 * half_height / resolution.height;
+  return {camera.position, forward - right * (pixel * resolution.width / 2) + up * half_height,
+          right * pixel, up * -pixel};
+}
+
+const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa) {
+  // The exact estimator is there to judge the others: it computes in double only.
+  return kernel_for(std::holds_alternative<ClosedForm>(estimator) ? InstructionSet::reference
+                                                                  : isa);
+}
+
+bool all_opaque(const Scene& scene) {
+  for (const Object& object : scene.objects)
+    if (!object.material.is_opaque()) return false;
+  return true;
+}
+
+}  // namespace
+
+Estimators estimator_for(const RenderSettings& settings) {
+  std::optional<Estimators> estimator = estimator_named(settings.estimator);
+  if (!estimator) {
+    std::string names;
+    for (const ShortName& s : short_names) names += std::string(s.name) + ", ";
+    throw Error(fmt::format(
+        "render.estimator = \"{}\" is not known here; accepted: {}{}, or placement+form with a "
+        "placement of {} "
+        "and a form of {}",
+        settings.estimator, names, ClosedForm::name, names_of<Placements>(), names_of<Forms>()));
+  }
+  if (auto* sampled = std::get_if<Sampled>(&*estimator)) {
+    sampled->intersect_every_step = settings.edges == Edges::per_step;
+    if (auto* mixed = std::get_if<Mixed>(&sampled->placement)) {
+      mixed->part = settings.mix_weight;
+      if (settings.mix_with == Equidistant::name)
+        mixed->partner = Mixed::Partner::equidistant;
+      else if (settings.mix_with == Distance::name)
+        mixed->partner = Mixed::Partner::distance;
+      else
+        throw Error(fmt::format("render.mix_with = \"{}\" is not known here; accepted: {}, {}",
+                                settings.mix_with, Equidistant::name, Distance::name));
+    }
+  }
+  return *estimator;
+}
+
+void check_settings(const Scene& scene, const RenderSettings& settings) {
+  const Estimators estimator = estimator_for(settings);
+  kernel_of(estimator, settings.isa);
+  if (const std::int64_t n = settings.samples_per_ray;
+      n != 0 && !std::has_single_bit(std::uint64_t(n)))
+    throw Error(fmt::format(
+        "render.samples_per_ray = {} is no power of two; accepted: 1, 2, 4, …, or 0 for all", n));
+  if (settings.first_sample.value_or(0) + settings.spp > std::int64_t(1) << 29)
+    throw Error(
+        "render.first_sample + render.spp is too large; accepted: up to 536870912 together");
+  if (std::holds_alternative<ClosedForm>(estimator) && !all_opaque(scene))
+    throw Error(fmt::format(
+        "estimator {} cannot serve this scene: it knows the shadows of opaque objects only",
+        ClosedForm::name));
+  if (!scene.medium) return;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (const char* reason =
+            std::visit([&](const auto& e) { return e.unsupported(*scene.medium, scene.lights[i]); },
+                       estimator))
+      throw Error(
+          fmt::format("estimator {} cannot serve lights.{}: {}", settings.estimator, i, reason));
+}
+
+Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings) {
+  check_settings(scene, settings);
+  const Estimators estimator = estimator_for(settings);
+  Frame frame{.scene = scene,
+              .world = world,
+              .camera = camera_frame(scene.camera, scene.resolution),
+              .estimator = estimator};
+  frame.filter = settings.filter;
+  // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all
+  // share one.
+  frame.through_centre = settings.samples_per_ray == 0 ||
+                         (!settings.first_sample && settings.spp <= settings.samples_per_ray);
+  frame.samples_per_ray = std::uint32_t(std::max<std::int64_t>(settings.samples_per_ray, 1));
+  const std::int64_t sharing = frame.through_centre ? settings.spp : settings.samples_per_ray;
+  frame.surface_samples = std::uint32_t(std::clamp<std::int64_t>(sharing / 4, 1, 64));
+  frame.seed = std::uint32_t(settings.seed);
+  return {frame,
+          kernel_of(estimator, settings.isa),
+          {std::uint32_t(settings.first_sample.value_or(0)), std::uint32_t(settings.spp)}};
+}
+
+}  // namespace airlight

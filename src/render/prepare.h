@@ -1,0 +1,22 @@
+#pragma once
+#include "render/kernel.h"
+
+namespace airlight {
+
+/// Settings made sense of: the estimator with its parameters, the kernel, the sample layout.
+struct Prepared {
+  Frame frame;
+  const Kernel& kernel;
+  SampleRange samples;
+};
+
+/// The estimator that the settings name, with its parameters. Throws Error with the accepted names.
+Estimators estimator_for(const RenderSettings& settings);
+
+/// Throws Error if the settings don't fit each other, the scene or the machine.
+Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings);
+
+/// Throws what `prepare` throws; needs no world.
+void check_settings(const Scene& scene, const RenderSettings& settings);
+
+}  // namespace airlight

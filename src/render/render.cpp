@@ -1,0 +1,157 @@
+#include "render/render.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "error.h"
+#include "geometry/flush_to_zero.h"
+#include "render/prepare.h"
+
+namespace airlight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr int tile_size = 16;  // divisible by every kernel's block
+
+bool is_finite(const PixelSums<double>& pixel) {
+  double sum = 0;
+  const auto add = [&](const Rgb<double>& c) { sum += c.r * 0 + c.g * 0 + c.b * 0; };
+  for (const Estimate<double>& half : pixel.in_scatter)
+    add(half.plain), add(half.analytic), add(half.occluded), add(half.unoccluded);
+  add(pixel.surface), add(pixel.transmittance), add(pixel.albedo);
+  add(Rgb<double>(pixel.normal.x, pixel.normal.y, pixel.normal.z));
+  return std::isfinite(sum + pixel.depth * 0);
+}
+
+PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
+  if (!crop) return {0, 0, full.width, full.height};
+  if (crop->x0 < 0 || crop->y0 < 0 || crop->width < 1 || crop->height < 1 ||
+      crop->width > full.width - crop->x0 || crop->height > full.height - crop->y0)
+    throw Error(fmt::format(
+        "crop {},{},{},{} does not lie in the picture; accepted: X,Y,W,H inside {} x {}", crop->x0,
+        crop->y0, crop->width, crop->height, full.width, full.height));
+  return *crop;
+}
+
+/// Where passes end: each doubles what is done, so that their sums stay exact in a film of floats
+/// and a stop loses little.
+std::vector<SampleRange> passes(SampleRange all, bool short_passes) {
+  std::vector<SampleRange> result;
+  std::uint32_t done = 0;
+  while (done < all.count) {
+    const std::uint32_t first = short_passes ? 4 : 64;
+    const std::uint32_t next = std::min(all.count, done == 0 ? first : 2 * done);
+    result.push_back({all.first + done, next - done});
+    done = next;
+  }
+  return result;
+}
+
+}  // namespace
+
+/// One world for each way to answer visibility, built when it is first asked for.
+struct Renderer::Worlds {
+  std::array<std::optional<World>, std::size(words<Visibility>)> built;
+
+  const World& get(const Scene& scene, Visibility visibility) {
+    std::optional<World>& world = built[std::size_t(visibility)];
+    if (!world) world.emplace(scene, visibility);
+    return *world;
+  }
+};
+
+Renderer::Renderer(const Scene& scene) : scene_(scene), worlds_(std::make_unique<Worlds>()) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+void Renderer::check(const RenderSettings& settings) const { check_settings(scene_, settings); }
+
+Rendered Renderer::render(const RenderSettings& settings, const RenderControl& control) {
+  check(settings);
+  const PixelRect crop = checked_crop(control.crop, scene_.resolution);
+  const Prepared prepared = prepare(scene_, worlds_->get(scene_, settings.visibility), settings);
+  Rendered result{.film = Film(scene_.resolution, crop)};
+  result.instruction_set = prepared.kernel.name;
+
+  const int columns = (crop.width + tile_size - 1) / tile_size;
+  const int rows = (crop.height + tile_size - 1) / tile_size;
+  std::atomic<std::int64_t> rejected = 0;
+  std::atomic<bool> stopped = false;
+  std::mutex reporting;
+  Progress progress{.samples = prepared.samples.count};
+  std::int64_t sample_tiles_done = 0;
+  const auto start = Clock::now();
+
+  const auto must_stop = [&] {
+    if (control.stop.stop_requested() ||
+        (control.time_limit > 0 && seconds_since(start) >= control.time_limit))
+      stopped = true;
+    return stopped.load();
+  };
+
+  const auto render_tile = [&](int index, SampleRange samples) {
+    if (must_stop()) return;
+    const FlushToZero flush;
+    const int x = index % columns * tile_size, y = index / columns * tile_size;
+    Tile tile;
+    tile.rect = {crop.x0 + x, crop.y0 + y, std::min(tile_size, crop.width - x),
+                 std::min(tile_size, crop.height - y)};
+    tile.samples = samples;
+    tile.pixels.resize(std::size_t(tile.rect.width * tile.rect.height));
+    prepared.kernel.render(prepared.frame, tile);
+    for (int j = 0; j < tile.rect.height; ++j)
+      for (int i = 0; i < tile.rect.width; ++i) {
+        const PixelSums<double>& sums = tile.pixels[std::size_t(j * tile.rect.width + i)];
+        if (is_finite(sums))
+          result.film.pixels[std::size_t(y + j) * std::size_t(crop.width) + std::size_t(x + i)].add(
+              sums);
+        else
+          ++rejected;
+      }
+    if (!control.on_progress) return;
+    const std::scoped_lock lock(reporting);
+    sample_tiles_done += samples.count;
+    progress.fraction =
+        double(sample_tiles_done) / (double(columns) * rows * double(prepared.samples.count));
+    progress.seconds = seconds_since(start);
+    control.on_progress(progress);
+  };
+
+  const int threads = settings.threads > 0 ? int(settings.threads) : tbb::task_arena::automatic;
+  const tbb::global_control allow_more(
+      tbb::global_control::max_allowed_parallelism,
+      std::max<std::size_t>(
+          std::size_t(settings.threads),
+          tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+  tbb::task_arena arena(threads);
+  for (const SampleRange& pass :
+       passes(prepared.samples, control.short_passes || control.time_limit > 0)) {
+    arena.execute(
+        [&] { tbb::parallel_for(0, columns * rows, [&](int tile) { render_tile(tile, pass); }); });
+    if (stopped) break;
+    result.samples += pass.count;
+    progress.samples_done = result.samples;
+    progress.seconds = seconds_since(start);
+    if (control.on_pass) control.on_pass(result.film, progress);
+  }
+  result.seconds = seconds_since(start);
+  result.complete = !stopped;
+  result.rejected = rejected;
+  return result;
+}
+
+Rendered render(const Scene& scene) { return Renderer(scene).render(scene.render); }
+
+}  // namespace airlight

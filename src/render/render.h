@@ -1,0 +1,63 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "render/film.h"
+
+namespace airlight {
+
+/// How far a render is.
+struct Progress {
+  std::int64_t samples_done = 0;  ///< a pixel, in passes that are finished
+  std::int64_t samples = 0;       ///< a pixel, asked for
+  double fraction = 0;            ///< of all work, 0 to 1
+  double seconds = 0;             ///< since the render began
+};
+
+/// What a caller may want of a render while it runs. All of it is optional.
+struct RenderControl {
+  std::optional<PixelRect> crop;  ///< renders this part only
+  double time_limit = 0;          ///< stops after this time with what is done; 0: no limit  [s]
+  bool short_passes = false;      ///< begins with few samples a pixel, for previews
+  std::stop_token stop;           ///< stops with what is done
+  std::function<void(const Progress&)> on_progress;  ///< called from workers, one at a time
+  std::function<void(const Film&, const Progress&)>
+      on_pass;  ///< called when every pixel has more samples
+};
+
+/// A finished picture and how it came about.
+struct Rendered {
+  Film film;
+  double seconds = 0;  ///< from the first ray to the last, without loading
+  const char* instruction_set = "";
+  std::int64_t samples = 0;  ///< a pixel, in the passes that were finished
+  bool complete = true;      ///< false if a limit or a stop cut it short
+  std::int64_t rejected =
+      0;  ///< pixel sums that were not finite and were left out; a defect if not 0
+};
+
+/// A scene made ready for rays; renders it as often as asked. The scene must outlive it.
+class Renderer {
+ public:
+  explicit Renderer(const Scene& scene);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+
+  /// Throws Error if the settings don't fit each other, the scene, or the machine.
+  Rendered render(const RenderSettings& settings, const RenderControl& control = {});
+
+  /// Throws what `render` would throw for these settings, without a ray.
+  void check(const RenderSettings& settings) const;
+
+ private:
+  struct Worlds;
+  const Scene& scene_;
+  std::unique_ptr<Worlds> worlds_;
+};
+
+/// Renders a scene once, as its file says.
+Rendered render(const Scene& scene);
+
+}  // namespace airlight

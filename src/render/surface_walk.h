@@ -1,0 +1,170 @@
+#pragma once
+/// What a packet of camera rays meets: surfaces one behind the other, glass and cut-outs between,
+/// the background.
+#include "render/frame.h"
+
+namespace airlight {
+
+template <Real F, class Space>
+class SurfaceWalk {
+ public:
+  SurfaceWalk(const Frame& frame, const Medium* medium, const Space& space,
+              const Sampler<F>& sampler) noexcept
+      : frame_(frame), medium_(medium), space_(space), sampler_(sampler) {}
+
+  F t_end{F(far_away)};  ///< where nothing passes any more  [m]
+  Rgb<F> radiance;       ///< of surfaces and background, as it reaches the camera
+  Rgb<F> emission;       ///< of the medium, as it reaches the camera
+  Rgb<F> through{F(1)};  ///< what passes from the end of the ray to the camera
+  Rgb<F> albedo;         ///< of the first surface; 0 without one
+  Vec3<F> normal;        ///< of the first surface, towards the camera; 0 without one
+  F depth{F(0)}, object{F(0)};
+  bool filtered = false;  ///< whether any lane crosses something that lets light through
+
+  void along(Vec3<F> origin, Vec3<F> direction, Interval<F> inside, std::uint32_t index,
+             Mask<F> active) noexcept {
+    F t(0);
+    bool first = true;
+    Rgb<F> filter(F(1));  // of all crossed so far
+    while (any(active)) {
+      const Hit<F> hit = frame_.world.template closest<F>(origin, direction, t, active);
+      const Mask<F> found = hit.found & active;
+      const F t_next = select(found, hit.t, F(far_away));
+      const Rgb<F> glow = filter * emitted(inside, t, t_next);
+      emission = select(active, emission + glow, emission);
+      const Rgb<F> dim = filter * attenuation(inside, t_next);
+      const Rgb<F> behind(Rgb<F>(frame_.scene.background) * dim);
+      radiance = select(active & !found, radiance + behind, radiance);
+      through = select(active, dim, through);
+      if (!any(found)) break;
+
+      const Crossing at = crossing(hit, bits<F>(found), direction);
+      radiance = select(found, radiance + dim * shade(at, origin, direction, hit.t, index, found),
+                        radiance);
+      through = select(found, dim * at.filter, through);
+      if (first) {
+        albedo = select(found, at.albedo, albedo);
+        normal = select(found, at.normal, normal);
+        depth = select(found, hit.t, depth);
+        object = select(found, at.object, object);
+        first = false;
+      }
+      const Mask<F> passes = found & ((at.filter.r + at.filter.g + at.filter.b) > F(0));
+      t_end = select(found & !passes, hit.t, t_end);
+      filter = select(passes, filter * at.filter, filter);
+      filtered = filtered || any(passes);
+      t = hit.t;
+      active = passes;
+    }
+  }
+
+ private:
+  /// A packet's surfaces.
+  struct Crossing {
+    Vec3<F> normal, geometric;  ///< towards the viewer
+    Rgb<F> albedo;              ///< times opacity
+    Rgb<F> filter;              ///< what the surface lets through
+    F object;                   ///< 1 + index
+  };
+
+  Crossing crossing(const Hit<F>& hit, std::uint32_t found, Vec3<F> direction) const noexcept {
+    alignas(64) Scalar<F> values[13][lanes<F>] = {};
+    for (int i = 0; i < lanes<F>; ++i) {
+      if (!((found >> i) & 1u)) continue;
+      const auto k = std::size_t(i);
+      const SurfacePoint s =
+          frame_.world.surface(hit.object[k], hit.primitive[k], hit.u[k], hit.v[k]);
+      const float numbers[13] = {s.normal.x,
+                                 s.normal.y,
+                                 s.normal.z,
+                                 s.geometric_normal.x,
+                                 s.geometric_normal.y,
+                                 s.geometric_normal.z,
+                                 s.albedo.r * s.opacity,
+                                 s.albedo.g * s.opacity,
+                                 s.albedo.b * s.opacity,
+                                 s.transmittance.r,
+                                 s.transmittance.g,
+                                 s.transmittance.b,
+                                 float(s.object + 1)};
+      for (int j = 0; j < 13; ++j) values[j][i] = numbers[j];
+    }
+    const auto at = [&](int j) { return load<F>(values[j]); };
+    Crossing c;
+    c.geometric = Vec3<F>(at(3), at(4), at(5));
+    c.geometric = select(dot(c.geometric, direction) > F(0), -c.geometric, c.geometric);
+    c.normal = Vec3<F>(at(0), at(1), at(2));
+    c.normal = select(dot(c.normal, c.geometric) < F(0), -c.normal, c.normal);
+    c.albedo = Rgb<F>(at(6), at(7), at(8));
+    c.filter = Rgb<F>(at(9), at(10), at(11));
+    c.object = at(12);
+    return c;
+  }
+
+  /// Diffuse reflection of every light and of the ambient radiance, towards the camera; the medium
+  /// dims light on its way in (Velinov 2021 Eq. 1 with a Lambertian surface).  [W/(m² sr)]
+  Rgb<F> shade(const Crossing& at, Vec3<F> origin, Vec3<F> direction, F t, std::uint32_t index,
+               Mask<F> found) const noexcept {
+    Rgb<F> light_in = Rgb<F>(frame_.scene.ambient) * F(pi);
+    const Vec3<F> p = origin + direction * t;
+    // Shadow rays start a little off the surface: the hit is known to a few roundings of its
+    // coordinates.
+    const F lift = F(2e-5) * (abs(p.x) + abs(p.y) + abs(p.z) + t);
+    const Vec3<F> from = p + at.geometric * lift;
+    for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
+      std::visit(
+          [&](const auto& light) { light_in += irradiance(light, i, at, from, index, found); },
+          frame_.scene.lights[std::size_t(i)]);
+    return at.albedo * light_in * F(1 / pi);
+  }
+
+  Rgb<F> irradiance(const Directional& light, int light_index, const Crossing& at, Vec3<F> from,
+                    std::uint32_t index, Mask<F> found) const noexcept {
+    const std::uint32_t count = light.angular_diameter > 0 ? frame_.surface_samples : 1;
+    Rgb<F> sum;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Vec3<F> w(light.toward());
+      if (light.angular_diameter > 0)
+        w = uniform_cap(w, F(Scalar<F>(light.cap_height())),
+                        sampler_.two(index * count + i, stream::surface(light_index)));
+      const F cosine = max(dot(at.normal, w), F(0));
+      const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
+      if (!any(faces)) continue;
+      Rgb<F> arriving = frame_.world.transmit(from, w, F(far_away), light_index, faces) * cosine;
+      if (medium_) {
+        const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(from), space_.vector(w)});
+        arriving *= extinguished(max(chord.t_exit - chord.t_enter, F(0)));
+      }
+      sum = select(faces, sum + arriving, sum);
+    }
+    return sum * Rgb<F>(light.irradiance) * F(Scalar<F>(1. / count));
+  }
+
+  /// e^{−σ length}.
+  Rgb<F> extinguished(F length) const noexcept {
+    if (!medium_) return Rgb<F>(F(1));
+    return exp_minus(Rgb<F>(medium_->sigma_t) * length);
+  }
+
+  /// Of the medium between the camera and t.
+  Rgb<F> attenuation(Interval<F> inside, F t) const noexcept {
+    return extinguished(max(min(t, inside.t_exit) - inside.t_enter, F(0)));
+  }
+
+  /// ∫ j e^{−σ s} ds over the part of the medium between two distances, in closed form.
+  Rgb<F> emitted(Interval<F> inside, F from, F to) const noexcept {
+    if (!medium_ || medium_->emission == Rgb<double>()) return {};
+    const F begin = clamp(from, inside.t_enter, inside.t_exit);
+    const F length = clamp(to, inside.t_enter, inside.t_exit) - begin;
+    const Rgb<F> sigma(medium_->sigma_t);
+    const Rgb<F> mean(phi(sigma.r * length), phi(sigma.g * length), phi(sigma.b * length));
+    return Rgb<F>(medium_->emission) * extinguished(begin - inside.t_enter) * mean * length;
+  }
+
+  const Frame& frame_;
+  const Medium* medium_;
+  const Space& space_;
+  const Sampler<F>& sampler_;
+};
+
+}  // namespace airlight

@@ -1,0 +1,251 @@
+#pragma once
+/// How a tile is rendered, over a real type: one lane a pixel. Compiled once for each arithmetic.
+#include <type_traits>
+
+#include "render/kernel.h"
+#include "render/surface_walk.h"
+
+namespace airlight {
+
+/// Pixels are taken in small blocks, one a lane, so that the rays of a packet stay together.
+template <Real F>
+struct Block {
+  static constexpr int height = lanes<F> >= 16 ? 4 : lanes<F> >= 4 ? 2 : 1;
+  static constexpr int width = lanes<F> / height;
+};
+
+/// Offset of a camera ray from its pixel's centre, drawn from the filter.  [pixels]
+template <Real F>
+Vec2<F> filter_offset(PixelFilter filter, Vec2<F> u) noexcept {
+  if (filter == PixelFilter::box) return {u.x - F(0.5), u.y - F(0.5)};
+  if (filter == PixelFilter::tent) {
+    const auto tent = [](F v) {
+      const F side = sqrt(F(2) * min(v, F(1) - v));
+      return select(v < F(0.5), side - F(1), F(1) - side);
+    };
+    return {tent(u.x), tent(u.y)};
+  }
+  constexpr double deviation = 0.5, cut = 1.5;
+  const F within(1 - 0.011108996538242306);  // 1 − exp(−(cut / deviation)² / 2)
+  const F radius = min(F(deviation) * sqrt(F(-2) * log1p_minus(u.x * within)), F(cut));
+  F sine, cosine;
+  sin_cos_turn(u.y, sine, cosine);
+  return {radius * cosine, radius * sine};
+}
+
+/// Sums of a packet, a lane a pixel, until they are spilled into the tile's.
+template <Real F>
+struct PacketSums {
+  Halves<F> in_scatter;
+  std::array<std::uint32_t, 2> samples{};
+  Rgb<F> surface, transmittance, albedo;
+  Vec3<F> normal;
+};
+
+template <Real F, class Space>
+class TileKernel {
+ public:
+  TileKernel(const Frame& frame, Tile& tile, const Medium* medium, const Space& space) noexcept
+      : frame_(frame), tile_(tile), medium_(medium), space_(space) {
+    if (medium) camera_local_ = Vec3<F>(space.point(frame.camera.position));
+  }
+
+  void render() const noexcept {
+    for (int y = 0; y < tile_.rect.height; y += Block<F>::height)
+      for (int x = 0; x < tile_.rect.width; x += Block<F>::width) packet(x, y);
+  }
+
+ private:
+  void packet(int x0, int y0) const noexcept {
+    alignas(64) Scalar<F> px[lanes<F>], py[lanes<F>];
+    std::array<int, std::size_t(lanes<F>)> pixel;
+    std::array<std::uint32_t, std::size_t(lanes<F>)> hash;
+    std::uint32_t inside = 0;
+    for (int i = 0; i < lanes<F>; ++i) {
+      const int x = x0 + i % Block<F>::width, y = y0 + i / Block<F>::width;
+      const bool in = x < tile_.rect.width && y < tile_.rect.height;
+      const int X = tile_.rect.x0 + (in ? x : x0), Y = tile_.rect.y0 + (in ? y : y0);
+      px[i] = Scalar<F>(X) + Scalar<F>(0.5), py[i] = Scalar<F>(Y) + Scalar<F>(0.5);
+      hash[std::size_t(i)] = pixel_hash(frame_.seed, std::uint32_t(X), std::uint32_t(Y));
+      pixel[std::size_t(i)] = in ? y * tile_.rect.width + x : -1;
+      inside |= std::uint32_t(in) << i;
+    }
+    const Sampler<F> sampler{load_bits<F>(hash.data())};
+    const Mask<F> active = mask_from_bits<F>(inside);
+    const F x = load<F>(px), y = load<F>(py);
+
+    PacketSums<F> sums;
+    const std::uint32_t end = tile_.samples.first + tile_.samples.count;
+    std::uint32_t rays_held = 0;
+    for (std::uint32_t i = tile_.samples.first; i < end;) {
+      const std::uint32_t per_ray = frame_.samples_per_ray;
+      const std::uint32_t index = frame_.through_centre ? 0 : i / per_ray;
+      const std::uint32_t stop = frame_.through_centre ? end : std::min(end, (index + 1) * per_ray);
+      const bool first = i == tile_.samples.first;
+      camera_ray(x, y, index, {i, stop - i}, sampler, active, first ? &pixel : nullptr, sums);
+      i = stop;
+      if (++rays_held == 64) spill(sums, pixel), rays_held = 0;  // short runs in F
+    }
+    spill(sums, pixel);
+  }
+
+  void camera_ray(F x, F y, std::uint32_t index, SampleRange samples, const Sampler<F>& sampler,
+                  Mask<F> active, const std::array<int, std::size_t(lanes<F>)>* first_of,
+                  PacketSums<F>& sums) const noexcept {
+    if (!frame_.through_centre) {
+      const Vec2<F> offset = filter_offset(frame_.filter, sampler.two(index, stream::camera));
+      x = x + offset.x, y = y + offset.y;
+    }
+    const CameraFrame& camera = frame_.camera;
+    const Vec3<F> origin(camera.position);
+    const Vec3<F> direction =
+        normalize(Vec3<F>(camera.corner) + Vec3<F>(camera.right) * x + Vec3<F>(camera.down) * y);
+
+    LocalRay<F> local{camera_local_, Vec3<F>()};
+    Interval<F> inside{F(0), F(0)};
+    if (medium_) {
+      local.d = space_.vector(direction);
+      inside = space_.clip(local);
+      inside.t_exit = max(inside.t_exit, inside.t_enter);
+    }
+
+    SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler);
+    walk.along(origin, direction, inside, index, active);
+
+    const F n(Scalar<F>(samples.count));
+    const bool halve_by_ray = !frame_.through_centre;
+    for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
+      const int half = half_of(halve_by_ray ? index : i);
+      ++sums.samples[std::size_t(half)];
+      sums.in_scatter[std::size_t(half)].plain += walk.emission;
+    }
+    sums.surface += walk.radiance * n;
+    sums.transmittance += walk.through * n;
+    sums.albedo += walk.albedo * n;
+    sums.normal = sums.normal + walk.normal * n;
+    if (first_of)
+      for (int i = 0; i < lanes<F>; ++i)
+        if (const int p = (*first_of)[std::size_t(i)]; p >= 0) {
+          tile_.pixels[std::size_t(p)].depth = lane(walk.depth, i);
+          tile_.pixels[std::size_t(p)].object = lane(walk.object, i);
+        }
+
+    if (!medium_) return;
+    MediumRay<F> ray;
+    ray.origin = origin, ray.direction = direction;
+    ray.entry = {local(inside.t_enter), local.d};
+    ray.t_enter = inside.t_enter;
+    ray.t_max = max(min(walk.t_end, inside.t_exit) - inside.t_enter, F(0));
+    ray.active = active & (ray.t_max > F(0));
+    ray.index = index;
+    ray.filtered = walk.filtered;
+    if (!any(ray.active)) return;
+    // Lanes that miss the medium run along with a section of no length, from a point where nothing
+    // overflows.
+    ray.entry.o = select(ray.active, ray.entry.o, Vec3<F>());
+    ray.t_enter = select(ray.active, ray.t_enter, F(0));
+
+    for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
+      std::visit(
+          [&](const auto& light) {
+            if (medium_->is_grey())
+              add<1>(light, i, ray, samples, halve_by_ray, sampler, sums);
+            else
+              add<3>(light, i, ray, samples, halve_by_ray, sampler, sums);
+          },
+          frame_.scene.lights[std::size_t(i)]);
+  }
+
+  template <int channels, class L>
+  void add(const L& light, int index, const MediumRay<F>& ray, SampleRange samples,
+           bool halve_by_ray, const Sampler<F>& sampler, PacketSums<F>& sums) const noexcept {
+    if (const auto* sampled = std::get_if<Sampled>(&frame_.estimator))
+      sampled->template add<channels>(*medium_, space_, light, index, ray, samples, halve_by_ray,
+                                      sampler, frame_.world, sums.in_scatter);
+  }
+
+  void spill(PacketSums<F>& sums,
+             const std::array<int, std::size_t(lanes<F>)>& pixel) const noexcept {
+    for (int i = 0; i < lanes<F>; ++i) {
+      if (pixel[std::size_t(i)] < 0) continue;
+      PixelSums<double>& into = tile_.pixels[std::size_t(pixel[std::size_t(i)])];
+      const auto colour = [&](Rgb<double>& to, const Rgb<F>& from) {
+        to += Rgb<double>(lane(from.r, i), lane(from.g, i), lane(from.b, i));
+      };
+      for (std::size_t half = 0; half < 2; ++half) {
+        colour(into.in_scatter[half].plain, sums.in_scatter[half].plain);
+        colour(into.in_scatter[half].analytic, sums.in_scatter[half].analytic);
+        colour(into.in_scatter[half].occluded, sums.in_scatter[half].occluded);
+        colour(into.in_scatter[half].unoccluded, sums.in_scatter[half].unoccluded);
+        into.samples[half] += sums.samples[half];
+      }
+      colour(into.surface, sums.surface);
+      colour(into.transmittance, sums.transmittance);
+      colour(into.albedo, sums.albedo);
+      into.normal = into.normal + Vec3<double>(lane(sums.normal.x, i), lane(sums.normal.y, i),
+                                               lane(sums.normal.z, i));
+    }
+    sums = {};
+  }
+
+  const Frame& frame_;
+  Tile& tile_;
+  const Medium* medium_;
+  const Space& space_;
+  Vec3<F> camera_local_;
+};
+
+template <Real F>
+void render_tile(const Frame& frame, Tile& tile) {
+  if (!frame.scene.medium) {
+    const Unbounded::Space nowhere;
+    return TileKernel<F, Unbounded::Space>(frame, tile, nullptr, nowhere).render();
+  }
+  std::visit(
+      [&](const auto& shape) {
+        const auto space = shape.space();
+        TileKernel<F, std::remove_const_t<decltype(space)>>(frame, tile, &*frame.scene.medium,
+                                                            space)
+            .render();
+      },
+      frame.scene.medium->shape);
+}
+
+template <Real F>
+void transmittance_integrals(const Box& box, Vec3<double> toward, double sigma_t, std::size_t count,
+                             const float* const rays[6], float* integrals) {
+  const Box::Space space = box.space();
+  const auto outward = space.outward(space.vector(Vec3<F>(toward)));
+  const F sigma(static_cast<Scalar<F>>(sigma_t));
+  const auto packet = [&](const float* const in[6], float* out) {
+    const Vec3<F> origin(load<F>(in[0]), load<F>(in[1]), load<F>(in[2]));
+    const Vec3<F> direction(load<F>(in[3]), load<F>(in[4]), load<F>(in[5]));
+    LocalRay<F> ray{space.point(origin), space.vector(direction)};
+    const Interval<F> inside = space.clip(ray);
+    const F t_max = inside.t_exit - inside.t_enter;
+    const Mask<F> hit = t_max > F(0);
+    ray.o = select(hit, ray(inside.t_enter), Vec3<F>());
+    const auto way = space.way_out(ray, outward, select(hit, t_max, F(0)));
+    store(Trapezoids<F, 3>(way, sigma).transmittance_integral(), out);
+  };
+  std::size_t i = 0;
+  for (; i + lanes<F> <= count; i += lanes<F>) {
+    const float* const in[6] = {rays[0] + i, rays[1] + i, rays[2] + i,
+                                rays[3] + i, rays[4] + i, rays[5] + i};
+    packet(in, integrals + i);
+  }
+  if (i == count) return;
+  float rest[6][lanes<F>] = {}, out[lanes<F>];
+  for (int k = 0; k < 6; ++k)
+    for (std::size_t j = i; j < count; ++j) rest[k][j - i] = rays[k][j];
+  const float* const in[6] = {rest[0], rest[1], rest[2], rest[3], rest[4], rest[5]};
+  packet(in, out);
+  for (std::size_t j = i; j < count; ++j) integrals[j] = out[j - i];
+}
+
+template <Real F>
+constexpr Kernel make_kernel(InstructionSet isa, const char* name) {
+  return {isa, name, lanes<F>, &render_tile<F>, &transmittance_integrals<F>};
+}
+
+}  // namespace airlight
