@@ -1,8 +1,30 @@
 #include "image/picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+
+#include "error.h"
 
 namespace airlight {
+
+void fill_row(const Layer& layer, int y, std::span<float> row, const std::filesystem::path& path) {
+  layer.fill(y, row);
+  const auto fits = [&](float value) {
+    if (layer.storage == Storage::id)
+      return value >= 0 && value <= 0x1p24F && value == std::trunc(value);
+    return std::isfinite(value);
+  };
+  const auto bad = std::ranges::find_if_not(row, fits);
+  if (bad == row.end()) return;
+  const std::size_t i = std::size_t(bad - row.begin());
+  const std::size_t channels = layer.channels.size();
+  throw Error(fmt::format(
+      "{}: layer {}.{} is {} at pixel {},{}; accepted: {}", path.string(), layer.name,
+      layer.channels[i % channels], *bad, i / channels, y,
+      layer.storage == Storage::id ? "whole numbers from 0 to 16777216" : "finite numbers"));
+}
 
 Picture picture_of(const Image& image) {
   Picture picture;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -51,6 +52,10 @@ struct Picture {
   std::vector<std::pair<std::string, MetadataValue>>
       metadata;  ///< such as {"spp", 64}; EXR and PNG keep it
 };
+
+/// Asks the layer for row y of the picture that goes to `path`. Throws Error naming layer, channel
+/// and pixel for a value that is not finite, or no id where ids are kept.
+void fill_row(const Layer& layer, int y, std::span<float> row, const std::filesystem::path& path);
 
 /// One layer, "beauty", that reads an RGB image, which must outlive the picture.
 Picture picture_of(const Image& image);

@@ -16,7 +16,7 @@ enum class Wrap {
   mirror,  ///< repeats, every other copy mirrored
 };
 
-/// An 8 bit image on a surface.
+/// An 8 bit image on a surface, one texel or more.
 struct Texture {
   int width = 0;
   int height = 0;

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace airlight {
+
+/// Encoded bytes of a picture and the name that stands for them in errors. Every decoder throws
+/// Error for bytes that are not such a picture, whatever they are, and for one beyond `max_pixels`.
+struct Encoded {
+  std::span<const std::byte> bytes;
+  const std::string& name;
+
+  bool starts_with(std::string_view magic) const;
+};
+
+/// "name: cannot be read: reason".
+[[noreturn]] void fail_to_decode(const Encoded& encoded, const std::string& reason);
+
+/// What a broken or hostile header may ask for: 2^27 pixels are 1.6 GB of RGB floats.
+constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
+
+/// Throws unless both sizes are positive and the pixels few enough.
+void check_size(const Encoded& encoded, std::int64_t width, std::int64_t height);
+
+Image decode_exr(const Encoded& encoded, const std::string& layer);
+Image decode_pfm(const Encoded& encoded);
+Image decode_png(const Encoded& encoded);
+Image decode_hdr(const Encoded& encoded);  ///< Radiance
+
+std::map<std::string, std::string> exr_metadata(const Encoded& encoded);
+std::map<std::string, std::string> png_metadata(const Encoded& encoded);
+
+/// 8 bit codes as they stand in a PNG, JPG, BMP or TGA file: no colour space is applied.
+struct Codes {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> values;  ///< interleaved, row 0 on top
+};
+
+/// `channels`: 3 for RGB, 4 for RGBA, whatever the file has.
+Codes decode_codes(const Encoded& encoded, int channels);
+
+}  // namespace airlight

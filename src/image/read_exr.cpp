@@ -1,0 +1,130 @@
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstring>
+#include <set>
+#include <stdexcept>
+
+#include "error.h"
+#include "image/decoders.h"
+
+namespace airlight {
+namespace {
+
+class Stream : public Imf::IStream {
+ public:
+  explicit Stream(const Encoded& encoded)
+      : Imf::IStream(encoded.name.c_str()), bytes_(encoded.bytes) {}
+  bool read(char out[], int size) override {
+    if (size < 0 || position_ > bytes_.size() || std::size_t(size) > bytes_.size() - position_)
+      throw std::runtime_error("the file ends too early");
+    std::memcpy(out, bytes_.data() + position_, std::size_t(size));
+    position_ += std::size_t(size);
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::uint64_t position_ = 0;
+};
+
+/// Runs `read(file)`; the library's exceptions become an Error.
+template <class Read>
+auto with_file(const Encoded& encoded, Read&& read) {
+  try {
+    Stream stream(encoded);
+    Imf::InputFile file(stream, 0);
+    return read(file);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail_to_decode(encoded, error.what());
+  }
+}
+
+/// Channels of the file to read as the image's channels.
+std::vector<std::string> channels_of(const Encoded& encoded, const Imf::ChannelList& channels,
+                                     const std::string& layer) {
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  std::vector<std::string> rgb;
+  for (const char* colour : {"R", "G", "B"})
+    if (channels.findChannel(prefix + colour) != nullptr) rgb.push_back(prefix + colour);
+  if (rgb.size() == 3) return rgb;
+  if (layer.empty() && channels.findChannel("Y") != nullptr &&
+      channels.findChannel("RY") == nullptr)
+    return {"Y", "Y", "Y"};
+
+  std::vector<std::string> all;
+  std::vector<std::string> in_layer;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    all.emplace_back(channel.name());
+    const bool inside =
+        all.back().starts_with(prefix) && all.back().find('.', prefix.size()) == std::string::npos;
+    if (inside) in_layer.push_back(all.back());
+  }
+  if (layer.empty() || in_layer.empty())
+    fail_to_decode(encoded, fmt::format("it has no channels {0}R, {0}G, {0}B; it has: {1}", prefix,
+                                        fmt::join(all, ", ")));
+  return in_layer;
+}
+
+}  // namespace
+
+Image decode_exr(const Encoded& encoded, const std::string& layer) {
+  return with_file(encoded, [&](Imf::InputFile& file) {
+    const Imath::Box2i window = file.header().dataWindow();
+    const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
+    const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
+    check_size(encoded, width, height);
+
+    const Imf::ChannelList& channels = file.header().channels();
+    const std::vector<std::string> names = channels_of(encoded, channels, layer);
+    Image image(int(width), int(height), int(names.size()));
+    const std::size_t pixel_bytes = names.size() * sizeof(float);
+    const std::size_t row_bytes = std::size_t(width) * pixel_bytes;
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      const Imf::Channel& channel = *channels.findChannel(names[c]);
+      if (channel.xSampling != 1 || channel.ySampling != 1)
+        fail_to_decode(encoded, fmt::format("channel {} has fewer samples than pixels", names[c]));
+      frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window,
+                                              pixel_bytes, row_bytes));
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return image;
+  });
+}
+
+std::map<std::string, std::string> exr_metadata(const Encoded& encoded) {
+  return with_file(encoded, [](Imf::InputFile& file) {
+    const Imf::Header standard;  // what every file has says nothing
+    std::map<std::string, std::string> metadata;
+    for (auto i = file.header().begin(); i != file.header().end(); ++i) {
+      const std::string key = i.name();
+      if (standard.find(key) != standard.end()) continue;
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+        metadata[key] = text->value();
+      else if (const auto* real = dynamic_cast<const Imf::DoubleAttribute*>(&i.attribute()))
+        metadata[key] = fmt::format("{}", real->value());
+      else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&i.attribute()))
+        metadata[key] = fmt::format("{}", real->value());
+      else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&i.attribute()))
+        metadata[key] = fmt::format("{}", whole->value());
+    }
+    return metadata;
+  });
+}
+
+}  // namespace airlight

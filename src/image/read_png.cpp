@@ -1,0 +1,105 @@
+#include <png.h>
+
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "image/decoders.h"
+#include "image/srgb.h"
+
+namespace airlight {
+namespace {
+
+/// Bytes that libpng reads one after the other.
+struct Source {
+  std::span<const std::byte> rest;
+  std::string error;
+};
+
+void on_read(png_structp png, png_bytep out, std::size_t size) {
+  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+  if (size > source.rest.size()) png_error(png, "the file ends too early");
+  std::memcpy(out, source.rest.data(), size);
+  source.rest = source.rest.subspan(size);
+}
+
+void on_error(png_structp png, png_const_charp message) {
+  static_cast<Source*>(png_get_error_ptr(png))->error = message;
+  png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+/// libpng's own state for reading headers.
+struct Decoder {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+
+  explicit Decoder(Source& source) {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_error, on_warning);
+    if (png != nullptr) info = png_create_info_struct(png);
+    if (info == nullptr) {
+      png_destroy_read_struct(&png, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
+    png_set_read_fn(png, &source, on_read);
+  }
+  ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  /// False where libpng gave up; the source knows why.
+  bool read_info() {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_read_info(png, info);
+    return true;
+  }
+};
+
+}  // namespace
+
+Image decode_png(const Encoded& encoded) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&header, encoded.bytes.data(), encoded.bytes.size()) == 0)
+    fail_to_decode(encoded, header.message);
+  const bool wide = (header.format & PNG_FORMAT_FLAG_LINEAR) != 0;  // 16 bit
+  header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // unless the file says otherwise
+  header.format = wide ? PNG_FORMAT_LINEAR_RGB : PNG_FORMAT_RGB;
+  const auto width = header.width;
+  const auto height = header.height;
+  try {
+    check_size(encoded, width, height);
+  } catch (...) {
+    png_image_free(&header);
+    throw;
+  }
+
+  Image image(int(width), int(height), 3);
+  const png_color black{0, 0, 0};
+  const auto read = [&]<class Code>(auto linear_of, Code) {
+    std::vector<Code> codes(image.pixels.size());
+    if (png_image_finish_read(&header, &black, codes.data(), 0, nullptr) == 0)
+      fail_to_decode(encoded, header.message);
+    for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i] = linear_of(codes[i]);
+  };
+  if (wide)
+    read([](png_uint_16 code) { return float(code) / 65535.0F; }, png_uint_16{});
+  else
+    read([](std::uint8_t code) { return linear_of_srgb[code]; }, std::uint8_t{});
+  return image;
+}
+
+std::map<std::string, std::string> png_metadata(const Encoded& encoded) {
+  Source source{encoded.bytes, ""};
+  Decoder decoder(source);
+  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  png_textp chunks = nullptr;
+  const int count = png_get_text(decoder.png, decoder.info, &chunks, nullptr);
+  std::map<std::string, std::string> metadata;
+  for (const png_text& chunk : std::span(chunks, std::size_t(count)))
+    metadata[chunk.key] = chunk.text;
+  return metadata;
+}
+
+}  // namespace airlight

@@ -1,0 +1,479 @@
+// Pictures through files: what is written is what is read, or an Error.
+#include "image/image.h"
+
+#include <ImfChannelList.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <gmock/gmock.h>
+#include <png.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "error.h"
+#include "image/atomic_file.h"
+#include "image/decoders.h"
+#include "image/input.h"
+#include "image/output.h"
+#include "image/read_file.h"
+#include "image/srgb.h"
+#include "support/scratch.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+using namespace airlight;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Pair;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/// Values from dark to bright of both signs, different in every place.
+Image noise(int width, int height, int channels = 3) {
+  Image image(width, height, channels);
+  std::mt19937 random(7);
+  for (float& value : image.pixels)
+    value = std::exp2(float(random() % 2000) / 100 - 10) * (random() % 8 == 0 ? -1.0F : 1.0F);
+  return image;
+}
+
+Layer layer_of(const std::string& name, std::vector<std::string> channels, const Image& image,
+               Storage storage = Storage::colour) {
+  return {name, std::move(channels),
+          [&image](int y, std::span<float> row) { std::ranges::copy(image.row(y), row.begin()); },
+          storage};
+}
+
+template <class Action>
+std::string error_of(Action&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+Image one_row(std::vector<float> values) {
+  Image image(int(values.size() / 3), 1);
+  image.pixels = std::move(values);
+  return image;
+}
+
+/// The 8 bit codes of a PNG by another decoder than ours, libpng.
+std::vector<std::uint8_t> codes_in(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  return decode_codes({bytes, path.string()}, 3).values;
+}
+
+class EveryFormat : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Picture, EveryFormat, testing::Values("exr", "pfm", "png"),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+
+TEST(Exr, keeps_single_precision_exactly) {
+  const ScratchFolder folder;
+  for (const auto& [width, height] : {std::pair(37, 50), std::pair(1, 1), std::pair(3, 16)}) {
+    const Image image = noise(width, height);
+    write_exr(folder / "a.exr", picture_of(image), ExrType::single);
+    const Image read = read_image(folder / "a.exr");
+    EXPECT_EQ(read.width, width);
+    EXPECT_EQ(read.height, height);
+    EXPECT_EQ(read.pixels, image.pixels);
+  }
+}
+
+TEST(Exr, rounds_half_precision_to_the_nearest) {
+  const ScratchFolder folder;
+  const Image image = noise(20, 20);
+  write_exr(folder / "a.exr", picture_of(image), ExrType::half);
+  const Image read = read_image(folder / "a.exr");
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)  // 11 significant bits
+    EXPECT_LE(std::abs(read.pixels[i] - image.pixels[i]), 0x1p-11F * std::abs(image.pixels[i]));
+}
+
+TEST(Exr, clamps_what_half_precision_cannot_hold) {
+  const ScratchFolder folder;
+  const Image image = one_row({1e30F, -70000, 65519, 65520, 65504, 1});
+  write_exr(folder / "a.exr", picture_of(image), ExrType::half);
+  EXPECT_THAT(read_image(folder / "a.exr").pixels,
+              ElementsAre(65504, -65504, 65504, 65504, 65504, 1));
+}
+
+TEST(Exr, keeps_every_layer_with_its_precision) {
+  const ScratchFolder folder;
+  const Image beauty = noise(9, 20);
+  const Image normal = noise(9, 20);
+  Image depth = noise(9, 20, 1);
+  Image id(9, 20, 1);
+  for (std::size_t i = 0; i < id.pixels.size(); ++i) id.pixels[i] = float((1 << 24) - i);
+  Picture picture = picture_of(beauty);
+  picture.layers.push_back(layer_of("normal", {"X", "Y", "Z"}, normal));
+  picture.layers.push_back(layer_of("in_scatter", {"R", "G", "B"}, normal, Storage::single));
+  picture.layers.push_back(layer_of("depth", {"Z"}, depth, Storage::single));
+  picture.layers.push_back(layer_of("object_id", {"id"}, id, Storage::id));
+  write_exr(folder / "a.exr", picture, ExrType::half);
+
+  EXPECT_EQ(read_image(folder / "a.exr", "depth").pixels, depth.pixels);
+  EXPECT_EQ(read_image(folder / "a.exr", "depth").channels, 1);
+  EXPECT_EQ(read_image(folder / "a.exr", "object_id").pixels, id.pixels);
+  EXPECT_EQ(read_image(folder / "a.exr", "in_scatter").pixels, normal.pixels);
+  EXPECT_NEAR(read_image(folder / "a.exr", "normal").at(8, 19, 2), normal.at(8, 19, 2),
+              std::abs(normal.at(8, 19, 2)) * 0x1p-11);
+
+  const Imf::InputFile file((folder / "a.exr").c_str());
+  const auto type = [&](const char* channel) { return file.header().channels()[channel].type; };
+  EXPECT_EQ(type("R"), Imf::HALF);
+  EXPECT_EQ(type("normal.Y"), Imf::HALF);
+  EXPECT_EQ(type("in_scatter.G"), Imf::FLOAT);
+  EXPECT_EQ(type("depth.Z"), Imf::FLOAT);
+  EXPECT_EQ(type("object_id.id"), Imf::UINT);
+  EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+}
+
+TEST(Exr, names_the_channels_it_has_when_a_layer_is_missing) {
+  const ScratchFolder folder;
+  const Image image = noise(2, 2);
+  write_exr(folder / "a.exr", picture_of(image), ExrType::half);
+  EXPECT_EQ(
+      error_of([&] { read_image(folder / "a.exr", "surface"); }),
+      (folder / "a.exr").string() +
+          ": cannot be read: it has no channels surface.R, surface.G, surface.B; it has: B, G, R");
+}
+
+TEST(Exr, places_a_crop_in_the_whole) {
+  const ScratchFolder folder;
+  const Image image = noise(30, 40);
+  Picture picture = picture_of(image);
+  picture.crop = Crop{100, 200, 640, 480};
+  write_exr(folder / "a.exr", picture, ExrType::single);
+  const Imf::InputFile file((folder / "a.exr").c_str());
+  EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({100, 200}, {129, 239}));
+  EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {639, 479}));
+  EXPECT_EQ(read_image(folder / "a.exr").pixels, image.pixels);
+}
+
+TEST(Exr, keeps_metadata) {
+  const ScratchFolder folder;
+  const Image image = noise(2, 2);
+  Picture picture = picture_of(image);
+  picture.metadata = {{"estimator", "rewv"},
+                      {"seconds", 0.1},
+                      {"seed", std::int64_t{1} << 40},
+                      {"spp", std::int64_t{-64}},
+                      {"title", "Fog über Ålesund"}};
+  write_exr(folder / "a.exr", picture, ExrType::half);
+  EXPECT_THAT(
+      read_metadata(folder / "a.exr"),
+      ElementsAre(Pair("estimator", "rewv"), Pair("seconds", "0.1"), Pair("seed", "1099511627776"),
+                  Pair("spp", "-64"), Pair("title", "Fog über Ålesund")));
+}
+
+TEST(Pfm, keeps_values_exactly) {
+  const ScratchFolder folder;
+  const Image image = noise(31, 17);
+  write_pfm(folder / "a.pfm", picture_of(image));
+  const Image read = read_image(folder / "a.pfm");
+  EXPECT_EQ(read.width, 31);
+  EXPECT_EQ(read.pixels, image.pixels);
+}
+
+TEST(Pfm, is_the_format_byte_for_byte) {
+  const ScratchFolder folder;
+  Image image(1, 2);
+  image.pixels = {1, 2, 3, -0.5F, 0, 0};
+  write_pfm(folder / "a.pfm", picture_of(image));
+  using namespace std::string_literals;
+  EXPECT_EQ(read_text(folder / "a.pfm"),
+            "PF\n1 2\n-1.0\n"
+            "\0\0\0\xbf\0\0\0\0\0\0\0\0"
+            "\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40"s);
+}
+
+TEST(Pfm, is_read_in_grey_and_in_the_other_byte_order) {
+  const ScratchFolder folder;
+  using namespace std::string_literals;
+  write_text(folder / "a.pfm", "Pf 2 1 1.0\n\x3f\x80\0\0\x40\0\0\0"s);
+  EXPECT_THAT(read_image(folder / "a.pfm").pixels, ElementsAre(1, 1, 1, 2, 2, 2));
+}
+
+TEST(Srgb, knows_its_codes) {
+  EXPECT_EQ(linear_of_srgb[0], 0);
+  EXPECT_EQ(linear_of_srgb[255], 1);
+  EXPECT_NEAR(linear_of_srgb[10], 10 / 255.0 / 12.92, 1e-9);
+  EXPECT_NEAR(linear_of_srgb[128], 0.2158605, 1e-7);  // IEC 61966-2-1
+  for (int code = 0; code < 256; ++code)
+    EXPECT_EQ(srgb_of_linear(linear_of_srgb[std::size_t(code)]), code);
+  EXPECT_EQ(srgb_of_linear(-1), 0);
+  EXPECT_EQ(srgb_of_linear(7), 255);
+  EXPECT_EQ(srgb_of_linear(0.18F), 118);
+}
+
+TEST(Png, holds_srgb_codes_of_the_light) {
+  const ScratchFolder folder;
+  write_png(folder / "a.png", picture_of(one_row({0, 0.5F, 1, -3, 0.18F, 40})));
+  EXPECT_THAT(codes_in(folder / "a.png"), ElementsAre(0, 188, 255, 0, 118, 255));
+}
+
+TEST(Png, is_read_back_as_linear_light) {
+  const ScratchFolder folder;
+  Image image(256, 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 256; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = linear_of_srgb[std::size_t((x + 80 * c + y) % 256)];
+  write_png(folder / "a.png", picture_of(image));
+  EXPECT_EQ(read_image(folder / "a.png").pixels, image.pixels);
+}
+
+TEST(Png, is_exposed_in_stops) {
+  const ScratchFolder folder;
+  write_png(folder / "a.png", picture_of(one_row({0.25F, 0.125F, 0.0625F})), {1, ToneMap::none});
+  write_png(folder / "b.png", picture_of(one_row({0.5F, 0.25F, 0.125F})));
+  EXPECT_EQ(codes_in(folder / "a.png"), codes_in(folder / "b.png"));
+}
+
+TEST(Png, takes_the_filmic_curve) {
+  const ScratchFolder folder;
+  // 0.18 (2.51 0.18 + 0.03) / (0.18 (2.43 0.18 + 0.59) + 0.14) = 0.26689; 2.54 / 3.16 = 0.80380.
+  EXPECT_NEAR(filmic(0.18F), 0.26689F, 1e-5F);
+  EXPECT_NEAR(filmic(1), 0.80380F, 1e-5F);
+  EXPECT_EQ(filmic(0), 0);
+  EXPECT_EQ(filmic(std::numeric_limits<float>::max()), 1);
+  write_png(folder / "a.png", picture_of(one_row({0, 0.18F, 1})), {0, ToneMap::filmic});
+  EXPECT_THAT(codes_in(folder / "a.png"), ElementsAre(0, 141, 232));
+}
+
+TEST(Png, keeps_metadata) {
+  const ScratchFolder folder;
+  const Image image = noise(2, 2);
+  Picture picture = picture_of(image);
+  picture.metadata = {{"estimator", "rewv"},
+                      {"seconds", 0.1},
+                      {"seed", std::int64_t{1} << 40},
+                      {"title", "Fog über Ålesund"}};
+  write_png(folder / "a.png", picture);
+  EXPECT_THAT(read_metadata(folder / "a.png"),
+              ElementsAre(Pair("estimator", "rewv"), Pair("seconds", "0.1"),
+                          Pair("seed", "1099511627776"), Pair("title", "Fog über Ålesund")));
+}
+
+TEST(Png, is_read_in_16_bit_and_over_black) {
+  const ScratchFolder folder;
+  const auto write = [&](png_uint_32 format, const void* codes, const char* name) {
+    png_image header{};
+    header.version = PNG_IMAGE_VERSION;
+    header.width = header.height = 1;
+    header.format = format;
+    ASSERT_TRUE(png_image_write_to_file(&header, (folder / name).c_str(), 0, codes, 0, nullptr));
+  };
+  const png_uint_16 wide[] = {65535, 32768, 1000};
+  write(PNG_FORMAT_LINEAR_RGB, wide, "wide.png");
+  const Image linear = read_image(folder / "wide.png");
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(linear.at(0, 0, c), wide[c] / 65535.0, 1 / 65535.0);
+
+  const std::uint8_t clear[] = {200, 100, 255, 0};
+  write(PNG_FORMAT_RGBA, clear, "clear.png");
+  EXPECT_THAT(read_image(folder / "clear.png").pixels, ElementsAre(0, 0, 0));
+
+  const std::uint8_t grey[] = {128};
+  write(PNG_FORMAT_GRAY, grey, "grey.png");
+  const float value = linear_of_srgb[128];
+  EXPECT_THAT(read_image(folder / "grey.png").pixels, ElementsAre(value, value, value));
+}
+
+TEST(ReadImage, takes_what_others_write) {
+  const ScratchFolder folder;
+  const std::uint8_t codes[] = {255, 128, 0, 10, 20, 30};
+  ASSERT_TRUE(stbi_write_bmp((folder / "a.bmp").c_str(), 2, 1, 3, codes));
+  ASSERT_TRUE(stbi_write_tga((folder / "a.tga").c_str(), 2, 1, 3, codes));
+  ASSERT_TRUE(stbi_write_png((folder / "a.png").c_str(), 2, 1, 3, codes, 6));
+  for (const char* name : {"a.bmp", "a.tga", "a.png"}) {
+    const Image image = read_image(folder / name);
+    ASSERT_EQ(image.pixels.size(), 6U) << name;
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_EQ(image.pixels[i], linear_of_srgb[codes[i]]) << name;
+  }
+
+  const std::vector<std::uint8_t> grey(3 * 64, 128);
+  ASSERT_TRUE(stbi_write_jpg((folder / "a.jpg").c_str(), 8, 8, 3, grey.data(), 100));
+  EXPECT_EQ(read_image(folder / "a.jpg").at(3, 3, 1), linear_of_srgb[128]);
+
+  const float light[] = {1, 0.5F, 0, 16, 8, 4};  // exact in RGBE
+  ASSERT_TRUE(stbi_write_hdr((folder / "a.hdr").c_str(), 2, 1, 3, light));
+  EXPECT_THAT(read_image(folder / "a.hdr").pixels, testing::ElementsAreArray(light));
+}
+
+TEST(ReadImage, takes_run_lengths_of_radiance_files) {
+  const ScratchFolder folder;
+  Image image(300, 2);
+  for (int x = 0; x < 300; ++x)
+    for (int y = 0; y < 2; ++y)
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) = x < 200 ? 0.25F : std::exp2(float(x % 7 + c));
+  ASSERT_TRUE(stbi_write_hdr((folder / "a.hdr").c_str(), 300, 2, 3, image.pixels.data()));
+  EXPECT_LT(std::filesystem::file_size(folder / "a.hdr"), 300U * 2 * 4);
+  EXPECT_EQ(read_image(folder / "a.hdr").pixels, image.pixels);  // powers of two are exact in RGBE
+}
+
+TEST(ReadImage, names_the_file_and_the_reason) {
+  const ScratchFolder folder;
+  const std::string name = folder.path().string();
+  EXPECT_EQ(error_of([&] { read_image(folder / "sun.png"); }),
+            name + "/sun.png: cannot be read: No such file or directory");
+  write_text(folder / "a.exr", "not a picture at all");
+  EXPECT_THAT(error_of([&] { read_image(folder / "a.exr"); }),
+              HasSubstr("/a.exr: cannot be read: it is no picture of a known format"));
+  write_text(folder / "a.pfm", "PF\n1000000000 1000000000\n-1.0\n");
+  EXPECT_THAT(error_of([&] { read_image(folder / "a.pfm"); }),
+              HasSubstr("1000000000 x 1000000000 pixels"));
+  write_text(folder / "b.pfm", "PF\nwide high\n-1.0\n");
+  EXPECT_THAT(error_of([&] { read_image(folder / "b.pfm"); }), HasSubstr("its header is not"));
+}
+
+TEST(ReadImage, survives_broken_files) {
+  const ScratchFolder folder;
+  const Image image = noise(40, 40);
+  std::vector<std::uint8_t> codes(40 * 40 * 3);
+  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = std::uint8_t(i * i / 7);
+  Picture picture = picture_of(image);
+  picture.metadata = {{"spp", std::int64_t{4}}};
+  write_exr(folder / "a.exr", picture, ExrType::half);
+  write_png(folder / "a.png", picture);
+  write_pfm(folder / "a.pfm", picture);
+  stbi_write_jpg((folder / "a.jpg").c_str(), 40, 40, 3, codes.data(), 80);
+  stbi_write_bmp((folder / "a.bmp").c_str(), 40, 40, 3, codes.data());
+  stbi_write_tga((folder / "a.tga").c_str(), 40, 40, 3, codes.data());
+  stbi_write_hdr((folder / "a.hdr").c_str(), 40, 40, 3, image.pixels.data());
+
+  std::mt19937 random(1);
+  int refused = 0;
+  const auto try_to_read = [&](const std::string& bytes) {
+    write_text(folder / "broken", bytes);
+    try {
+      read_metadata(folder / "broken");
+      EXPECT_EQ(read_image(folder / "broken").channels, 3);
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("broken: cannot be read: "));
+      ++refused;
+    }
+  };
+  for (const char* name : {"a.exr", "a.png", "a.pfm", "a.jpg", "a.bmp", "a.tga", "a.hdr"}) {
+    const std::string whole = read_text(folder / name);
+    for (int i = 0; i < 40; ++i) try_to_read(whole.substr(0, whole.size() * std::size_t(i) / 40));
+    for (int i = 0; i < 100; ++i) {
+      std::string flipped = whole;
+      for (int k = 0; k < 4; ++k) {
+        const std::size_t reach =
+            i % 2 == 0 ? std::min<std::size_t>(400, whole.size()) : whole.size();
+        flipped[random() % reach] ^= char(1 << random() % 8);
+      }
+      try_to_read(flipped);
+    }
+  }
+  EXPECT_GT(refused, 300);
+}
+
+TEST_P(EveryFormat, is_picked_by_its_extension) {
+  const ScratchFolder folder;
+  const Image image = one_row({0, 1, 0.5F});
+  const std::string upper =
+      GetParam() == std::string("exr") ? "a.EXR" : std::string("a.") + GetParam();
+  write_picture(folder / upper, picture_of(image));
+  EXPECT_NEAR(read_image(folder / upper).at(0, 0, 2), 0.5, 0.005);  // half a code of a PNG
+}
+
+TEST(Picture, has_no_format_without_a_known_extension) {
+  const Image image = one_row({0, 1, 0.5F});
+  EXPECT_EQ(error_of([&] { write_picture("out.jpg", picture_of(image)); }),
+            "out.jpg: unknown picture format \".jpg\"; accepted: .exr, .pfm, .png");
+  EXPECT_EQ(error_of([&] { check_picture_path("out"); }),
+            "out: unknown picture format \"\"; accepted: .exr, .pfm, .png");
+}
+
+TEST_P(EveryFormat, is_checked_before_a_long_render) {
+  const ScratchFolder folder;
+  const std::string name = std::string("a.") + GetParam();
+  check_picture_path(folder / name);
+  EXPECT_EQ(folder.files(), 0U);
+  EXPECT_THAT(error_of([&] { check_picture_path(folder / ("no/" + name)); }),
+              EndsWith(": cannot be written: No such file or directory"));
+  std::filesystem::create_directory(folder / name);
+  EXPECT_THAT(error_of([&] { check_picture_path(folder / name); }),
+              EndsWith(": cannot be written: Is a directory"));
+}
+
+TEST_P(EveryFormat, refuses_what_is_not_finite_and_keeps_the_old_file) {
+  const ScratchFolder folder;
+  const auto path = folder / (std::string("a.") + GetParam());
+  write_text(path, "old");
+  for (const float bad : {not_a_number, std::numeric_limits<float>::infinity()}) {
+    Image image = noise(20, 70);
+    image.at(3, 66, 1) = bad;
+    EXPECT_EQ(error_of([&] { write_picture(path, picture_of(image)); }),
+              path.string() + ": layer beauty.G is " + (std::isnan(bad) ? "nan" : "inf") +
+                  " at pixel 3,66; accepted: finite numbers");
+  }
+  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(Exr, refuses_an_id_that_is_none) {
+  const ScratchFolder folder;
+  const Image image = noise(2, 2);
+  Image id(2, 2, 1);
+  id.at(1, 0, 0) = -1;
+  Picture picture = picture_of(image);
+  picture.layers.push_back(layer_of("object_id", {"id"}, id, Storage::id));
+  EXPECT_THAT(
+      error_of([&] { write_picture(folder / "a.exr", picture); }),
+      HasSubstr(
+          "layer object_id.id is -1 at pixel 1,0; accepted: whole numbers from 0 to 16777216"));
+}
+
+TEST_P(EveryFormat, leaves_the_old_file_when_the_disk_is_full) {
+  const ScratchFolder folder;
+  const auto path = folder / (std::string("a.") + GetParam());
+  write_text(path, "old");
+  const Image image = noise(400, 400);
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit limit{10'000, before.rlim_max};  // no file may grow further
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  const std::string error = error_of([&] { write_picture(path, picture_of(image)); });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(error, path.string() + ": cannot be written: File too large");
+  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(folder.files(), 1U);
+
+  const auto full = folder / (std::string("full.") + GetParam());
+  std::filesystem::create_symlink("/dev/full", full);
+  EXPECT_EQ(error_of([&] { write_picture(full, picture_of(image)); }),
+            full.string() + ": cannot be written: No space left on device");
+}
+
+TEST_P(EveryFormat, asks_for_every_row_once) {
+  const ScratchFolder folder;
+  std::vector<int> asked(100);
+  Picture picture{5, 100, {}, {}, {}};
+  picture.layers = {{"beauty", {"R", "G", "B"}, [&](int y, std::span<float> row) {
+                       EXPECT_EQ(row.size(), 15U);
+                       std::ranges::fill(row, 0.5F);
+                       ++asked[std::size_t(y)];
+                     }}};
+  write_picture(folder / (std::string("a.") + GetParam()), picture);
+  EXPECT_THAT(asked, testing::Each(1));
+}
