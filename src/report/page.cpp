@@ -32,7 +32,7 @@ sub,sup{font-size:.72em;line-height:0}
 table{border-collapse:collapse;border-top:1.5px solid var(--ink);border-bottom:1.5px solid var(--ink);
   font:14.5px/1.4 "Helvetica Neue",Helvetica,Arial,sans-serif;font-variant-numeric:tabular-nums lining-nums}
 th,td{padding:.28rem .8rem;text-align:left;vertical-align:baseline}
-th{font-weight:600;border-bottom:1px solid var(--ink);vertical-align:bottom}
+th{font-weight:600;border-bottom:1px solid var(--ink);vertical-align:top}
 .number{text-align:right;white-space:nowrap}
 tbody+tbody tr:first-child td{border-top:1px solid var(--line)}
 .unit{display:block;font-weight:400;font-size:.88em;color:var(--muted)}

@@ -56,7 +56,8 @@ struct Overload : Case... {
 };
 
 bool drawable(Scale scale, double v) {
-  return std::isfinite(v) && (scale == Scale::linear || v > 0);
+  constexpr double most = 1e100;  // beyond, the arithmetic of ranges could overflow
+  return std::abs(v) <= most && (scale == Scale::linear || v >= 1 / most);
 }
 
 /// Throws unless the list has as many entries as it must.
@@ -112,14 +113,17 @@ struct Extent {
   }
 };
 
-/// The range that shows `extent` with a margin (parts of its length) below and above.
-Range range_of(const Axis& axis, Extent extent, double below, double above) {
+/// The range that shows `extent` with a margin at both ends, in parts of its length. What is
+/// nowhere negative is not shown below zero; `from_zero` starts there unless the data stay far away
+/// from it.
+Range range_of(const Axis& axis, Extent extent, double margin, bool from_zero) {
   Range range = {axis.scale};
   const bool linear = axis.scale == Scale::linear;
   if (axis.low && drawable(axis.scale, *axis.low)) extent.add(*axis.low);
   if (axis.high && drawable(axis.scale, *axis.high)) extent.add(*axis.high);
   if (!(extent.low <= extent.high)) extent = {axis.scale, linear ? 0. : 1., linear ? 1. : 10.};
-  if (linear && extent.low >= 0 && extent.low < 0.3 * extent.high) extent.low = below = 0;
+  const bool positive = extent.low >= 0;
+  if (from_zero && linear && positive && extent.low < 0.3 * extent.high) extent.low = 0;
   double low = range.forward(extent.low), high = range.forward(extent.high);
   if (!(high - low > 1e-12 * (std::abs(high) + std::abs(low)))) {  // one value only
     const double room = linear ? (low == 0 ? 1 : 0.5 * std::abs(low)) : std::log(2.);
@@ -127,8 +131,9 @@ Range range_of(const Axis& axis, Extent extent, double below, double above) {
     high += room;
   }
   const double length = high - low;
-  range.low = range.backward(low - below * length);
-  range.high = range.backward(high + above * length);
+  range.low = range.backward(low - margin * length);
+  range.high = range.backward(high + margin * length);
+  if (positive) range.low = std::max(range.low, 0.);
   if (axis.low && drawable(axis.scale, *axis.low)) range.low = *axis.low;
   if (axis.high && drawable(axis.scale, *axis.high)) range.high = *axis.high;
   if (!(range.low < range.high))
@@ -142,9 +147,9 @@ class Drawing {
  public:
   explicit Drawing(const Plot& plot);
 
-  double left() const { return left_; }
-  /// Draws with the left edge of the axes at `left`.
-  std::string draw(double left);
+  /// Gives both the wider of their left margins and, if they measure alike, of their x axes.
+  void align(Drawing& other);
+  std::string draw() const;
 
  private:
   struct Key {  // one entry of the legend
@@ -153,6 +158,7 @@ class Drawing {
   };
 
   void place_legend();
+  void fit_width() { width_ = std::max(40., plot_.width - left_ - right_); }
   std::string axes() const;
   std::string marks() const;
 
@@ -250,17 +256,17 @@ Drawing::Drawing(const Plot& plot) : plot_(plot) {
     const bool tinted = std::holds_alternative<Shade>(mark) || std::holds_alternative<Rule>(mark);
     colours_.push_back(own_colour(mark) ? std::max(0, *own_colour(mark)) : tinted ? -1 : next++);
   }
-  x_ = range_of(plot.x, x, markers ? 0.03 : 0, markers ? 0.03 : 0);
-  y_ = range_of(plot.y, y, 0.06, 0.06);
+  x_ = range_of(plot.x, x, markers ? 0.03 : 0, false);
+  y_ = range_of(plot.y, y, 0.06, true);
 
   place_legend();
   bottom_ = plot.x.label.empty() ? 30 : 52;
   height_ = std::max(40., plot.height - top_ - bottom_);
-  y_ticks_ = ticks(y_.scale, y_.low, y_.high, std::clamp(int(height_ / 55), 2, 7));
+  y_ticks_ = ticks(y_.scale, y_.low, y_.high, std::clamp(int(height_ / 45), 2, 7));
   double widest = 0;
   for (const Tick& tick : y_ticks_) widest = std::max(widest, text_width(tick.label, tick_size));
   left_ = widest + (plot.y.label.empty() ? 14 : 38);
-  width_ = std::max(40., plot.width - left_ - right_);
+  fit_width();
 }
 
 void Drawing::place_legend() {
@@ -305,9 +311,16 @@ void Drawing::place_legend() {
   if (!legend_.empty()) top_ += 20. * double(legend_.size()) + 4;
 }
 
-std::string Drawing::draw(double left) {
-  width_ -= left - left_;
-  left_ = left;
+void Drawing::align(Drawing& other) {
+  left_ = other.left_ = std::max(left_, other.left_);
+  fit_width();
+  other.fit_width();
+  if (x_.scale != other.x_.scale) return;
+  x_.low = other.x_.low = std::min(x_.low, other.x_.low);
+  x_.high = other.x_.high = std::max(x_.high, other.x_.high);
+}
+
+std::string Drawing::draw() const {
   std::string out;
   if (!plot_.title.empty())
     out += fmt::format(
@@ -517,12 +530,13 @@ std::string svg(const Plot& plot) { return svg(std::span(&plot, 1)); }
 
 std::string svg(std::span<const Plot> plots) {
   std::vector<Drawing> drawings(plots.begin(), plots.end());
-  double width = 0, height = 0, left = 0;
+  for (int pass = 0; pass < 2; ++pass)  // the second tells the first ones what the last one needs
+    for (std::size_t i = 1; i < drawings.size(); ++i) drawings[i].align(drawings[i - 1]);
+  double width = 0, height = 0;
   std::string title;
   for (std::size_t i = 0; i < plots.size(); ++i) {
     width = std::max(width, plots[i].width);
     height += plots[i].height;
-    left = std::max(left, drawings[i].left());
     if (title.empty()) title = plots[i].title;
   }
   std::string out = fmt::format(
@@ -537,8 +551,7 @@ std::string svg(std::span<const Plot> plots) {
                      px(width), px(height));
   double y = 0;
   for (std::size_t i = 0; i < plots.size(); ++i) {
-    out +=
-        fmt::format("<g transform=\"translate(0,{})\">\n{}</g>\n", px(y), drawings[i].draw(left));
+    out += fmt::format("<g transform=\"translate(0,{})\">\n{}</g>\n", px(y), drawings[i].draw());
     y += plots[i].height;
   }
   return out + "</svg>\n";

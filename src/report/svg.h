@@ -11,7 +11,7 @@
 namespace airlight {
 
 struct Axis {
-  std::string label;
+  std::string label = "";
   Scale scale = Scale::linear;
   std::optional<double> low = std::nullopt;   ///< where the axis starts; none: where the data do
   std::optional<double> high = std::nullopt;  ///< where it ends
@@ -19,8 +19,8 @@ struct Axis {
 
 /// A curve through points, or the points alone.
 struct Line {
-  std::string name;  ///< in the legend; "" stays out of it
-  std::vector<double> x, y;
+  std::string name = "";  ///< in the legend; "" stays out of it
+  std::vector<double> x = {}, y = {};
   std::vector<double> error = {};  ///< half length of the error bar of each point; empty: no bars
   bool markers = true;
   bool joined = true;
@@ -30,16 +30,16 @@ struct Line {
 
 /// A histogram: heights.size() + 1 edges. Filled bars, or the stair that outlines them.
 struct Bars {
-  std::string name;
-  std::vector<double> edges, heights;
+  std::string name = "";
+  std::vector<double> edges = {}, heights = {};
   bool filled = true;
   std::optional<int> colour = std::nullopt;
 };
 
 /// The area between two curves.
 struct Band {
-  std::string name;
-  std::vector<double> x, low, high;
+  std::string name = "";
+  std::vector<double> x = {}, low = {}, high = {};
   std::optional<int> colour = std::nullopt;
 };
 
@@ -53,8 +53,8 @@ struct Rule {
 /// Parts of the x axis tinted over the whole height: where a ray is lit, say. Takes no colour of
 /// the palette unless it is given one.
 struct Shade {
-  std::string name;
-  std::vector<std::pair<double, double>> intervals;
+  std::string name = "";
+  std::vector<std::pair<double, double>> intervals = {};
   std::optional<int> colour = std::nullopt;
 };
 
@@ -72,7 +72,7 @@ using Mark = std::variant<Line, Bars, Band, Rule, Shade>;
 /// 2008).
 struct Plot {
   std::string title = "";
-  Axis x, y;
+  Axis x = {}, y = {};
   std::vector<Mark> marks = {};
   double width = 640;  ///< pixels, legend and labels included
   double height = 400;

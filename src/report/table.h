@@ -25,7 +25,7 @@ struct Cell {
 enum class Best { none, lowest, highest };
 
 struct Column {
-  std::string name;
+  std::string name = "";
   std::string unit = "";   ///< printed below the name; "" has none
   Best best = Best::none;  ///< its cells are set in bold
   int digits = 4;          ///< significant digits of numbers without a spread
@@ -34,9 +34,9 @@ struct Column {
 /// Rows of named columns. One table gives both what is read and what is plotted from:
 /// HTML through `Page::table`, CSV through `csv`.
 struct Table {
-  std::string caption;
-  std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
+  std::string caption = "";
+  std::vector<Column> columns = {};
+  std::vector<std::vector<Cell>> rows = {};  ///< each as long as `columns`
 
   /// Column whose equal neighbours make a group: a line is drawn between groups, and the best value
   /// is looked for in each of them (the best estimator at each number of samples, say).

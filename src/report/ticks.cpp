@@ -43,7 +43,7 @@ std::vector<Tick> linear_ticks(double low, double high, int wanted) {
 std::vector<Tick> log2_ticks(double low, double high, int wanted) {
   const int first = int(std::ceil(std::log2(low) - 1e-9)),
             last = int(std::floor(std::log2(high) + 1e-9));
-  const int stride = std::max(1, (last - first + 1 + wanted) / (2 * wanted));
+  const int stride = std::max(1, int(std::ceil((last - first + 1) / (1.5 * wanted))));
   std::vector<Tick> out;
   for (int k = first; k <= last; ++k)
     out.push_back({std::exp2(k), k % stride == 0 ? number(std::exp2(k), 3) : ""});
@@ -64,8 +64,7 @@ std::vector<Tick> log_ticks(double low, double high, int wanted) {
       }
   const int stride = std::max(1, (decades + wanted) / (wanted + 1));
   const auto labelled = [&](int m, int k) {
-    if (decades >= 3) return m == 1 && k % stride == 0;
-    if (decades == 2 && halves > 5) return m == 1;
+    if (decades >= 3 || (decades == 2 && halves > wanted + 2)) return m == 1 && k % stride == 0;
     return halves < 3 || m == 1 || m == 2 || m == 5;
   };
   const bool plain = first >= -4 && last <= 5;
