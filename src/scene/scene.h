@@ -16,26 +16,42 @@ namespace airlight {
 struct Camera {
   Vec3<double> position{0, 0, 5};  ///< [m]
   Vec3<double> target{0, 0, 0};    ///< the point in the middle of the picture  [m]
-  Vec3<double> up{0, 1, 0};        ///< need not be perpendicular to the view, only not parallel to it
-  double fov = 40;                 ///< vertical  [degrees]
+  Vec3<double> up{0, 1, 0};  ///< need not be perpendicular to the view, only not parallel to it
+  double fov = 40;           ///< vertical  [degrees]
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    field("position", &Camera::position, unit::metre, any_number(), "where the camera is");
+    field("target", &Camera::target, unit::metre, any_number(),
+          "the point in the middle of the picture");
+    field("up", &Camera::up, unit::none, any_number(),
+          "what is up in the picture; not parallel to the view");
+    field("fov", &Camera::fov, unit::degree, open(0, 180), "vertical field of view");
+  }
 };
 
 /// Size of a picture in pixels.
 struct Resolution {
   int width = 640;
   int height = 360;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    field("width", &Resolution::width, unit::pixel, closed(1, 65535), "of the picture");
+    field("height", &Resolution::height, unit::pixel, closed(1, 65535), "of the picture");
+  }
 };
 
-/// How a surface reflects and filters light. Both sides are alike. Light that crosses the surface is multiplied by
-/// (1 − opacity) · tint; what it reflects diffusely is multiplied by opacity.
+/// How a surface reflects and filters light. Both sides are alike. Light that crosses the surface
+/// is multiplied by (1 − opacity) · tint; what it reflects diffusely is multiplied by opacity.
 struct Material {
   Rgb<double> albedo{0.5, 0.5, 0.5};  ///< diffuse, multiplied by the texture if there is one
   int albedo_texture = -1;            ///< index into Scene::textures, −1 without
   double opacity = 1;                 ///< multiplied by the texture's if there is one
   int opacity_texture = -1;           ///< index into Scene::textures
   bool opacity_from_alpha = false;    ///< the opacity texture's alpha counts, else its red
-  double cutoff = -1;                 ///< if not negative, opacity below it counts as 0, from it on as 1
-  Rgb<double> tint{1, 1, 1};          ///< of the light let through
+  double cutoff = -1;         ///< if not negative, opacity below it counts as 0, from it on as 1
+  Rgb<double> tint{1, 1, 1};  ///< of the light let through
 
   bool is_opaque() const { return opacity >= 1 && opacity_texture < 0; }
 };
@@ -54,7 +70,8 @@ struct Sphere {
   double radius = 1;    ///< [m]
 };
 
-/// Something light meets. Objects keep the order of the file: their index is their id in a picture's layer.
+/// Something light meets. Objects keep the order of the file: their index is their id in a
+/// picture's layer.
 struct Object {
   std::string name;
   std::variant<Mesh, Sphere> geometry;
@@ -72,7 +89,8 @@ struct Scene {
   std::optional<Medium> medium;
   std::vector<Lights> lights;
   RenderSettings render;
-  std::vector<std::string> assumptions;  ///< what a model left open and was filled in, a sentence each
+  std::vector<std::string>
+      assumptions;  ///< what a model left open and was filled in, a sentence each
 };
 
 }  // namespace airlight

@@ -1,0 +1,73 @@
+#include "scene/objects/keys.h"
+
+#include "error.h"
+#include "scene/rotation.h"
+
+namespace airlight {
+namespace {
+
+bool has_alpha(const Texture& texture) {
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
+    if (texture.rgba[i] != 255) return true;
+  return false;
+}
+
+/// Adds a picture to the parts' textures; returns its index.
+int add_texture(Parts& parts, const std::string& file, const Cursor& at,
+                const std::filesystem::path& folder) {
+  try {
+    parts.textures.push_back(load_texture(folder / file));
+  } catch (const Error& error) {
+    at.complain(std::string("names a picture that is not to be had: ") + error.what());
+  }
+  return int(parts.textures.size()) - 1;
+}
+
+}  // namespace
+
+void PlacedObject::place(Parts& parts, const char* kind) const {
+  const Rotation turn(rotate);
+  const auto moved = [&](Vec3<double> p) { return translate + turn(p * scale); };
+  const bool stays = scale == 1 && rotate == Vec3<double>() && translate == Vec3<double>();
+  for (Object& object : parts.objects) {
+    const std::string whole = label.empty() ? kind : label;
+    object.name = object.name.empty() ? whole : whole + "." + object.name;
+    if (stays) continue;
+    if (auto* sphere = std::get_if<Sphere>(&object.geometry)) {
+      sphere->centre = moved(sphere->centre);
+      sphere->radius *= scale;
+    } else {
+      Mesh& mesh = std::get<Mesh>(object.geometry);
+      for (auto& p : mesh.positions) p = Vec3<float>(moved(Vec3<double>(p)));
+      for (auto& n : mesh.normals) n = Vec3<float>(turn(Vec3<double>(n)));
+    }
+  }
+}
+
+void SurfacedObject::paint(Parts& parts, const Cursor& at,
+                           const std::filesystem::path& folder) const {
+  std::optional<int> albedo_index, opacity_index;
+  if (albedo_texture)
+    albedo_index = add_texture(parts, *albedo_texture, at.at_or_here("albedo_texture"), folder);
+  if (opacity_texture) {
+    opacity_index = add_texture(parts, *opacity_texture, at.at_or_here("opacity_texture"), folder);
+    parts.textures[std::size_t(*opacity_index)].srgb = false;  // opacity is no colour
+  }
+  for (Object& object : parts.objects) {
+    Material& material = object.material;
+    if (albedo) material.albedo = *albedo;
+    if (albedo_index) {
+      material.albedo_texture = *albedo_index;
+      if (!albedo) material.albedo = {1, 1, 1};  // the picture as it is
+    }
+    if (opacity) material.opacity = *opacity;
+    if (opacity_index) {
+      material.opacity_texture = *opacity_index;
+      material.opacity_from_alpha = has_alpha(parts.textures[std::size_t(*opacity_index)]);
+    }
+    if (cutoff) material.cutoff = *cutoff;
+    if (tint) material.tint = *tint;
+  }
+}
+
+}  // namespace airlight

@@ -1,0 +1,64 @@
+#pragma once
+#include <airlight/describe.h>
+#include <airlight/math/vec.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scene/cursor.h"
+#include "scene/objects/parts.h"
+
+namespace airlight {
+
+/// What every object of a scene file may say: its name and where it is put.
+struct PlacedObject {
+  std::string label;  ///< the key "name"; a kind has a name, too
+  double scale = 1;
+  Vec3<double> rotate{0, 0, 0};
+  Vec3<double> translate{0, 0, 0};
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    using O = PlacedObject;
+    field("name", &O::label, unit::none, any_number(), "what reports call it");
+    field("scale", &O::scale, unit::one, closed(1e-6, 1e6), "about the origin, before the turn");
+    field("rotate", &O::rotate, unit::degree, any_number(),
+          "about the x axis, then y, then z, through the origin");
+    field("translate", &O::translate, unit::metre, any_number(), "where its origin is put");
+  }
+
+  /// Puts the parts where the keys say and names them.
+  void place(Parts& parts, const char* kind) const;
+};
+
+/// An object that may also say what its surface is like.
+struct SurfacedObject : PlacedObject {
+  std::optional<Rgb<double>> albedo;
+  std::optional<std::string> albedo_texture;
+  std::optional<double> opacity;
+  std::optional<std::string> opacity_texture;
+  std::optional<double> cutoff;
+  std::optional<Rgb<double>> tint;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    PlacedObject::describe(field);
+    using O = SurfacedObject;
+    field("albedo", &O::albedo, unit::one, closed(0, 1), "what part of the light it reflects");
+    field("albedo_texture", &O::albedo_texture, unit::none, any_number(),
+          "picture that multiplies the albedo; its path starts at the scene file");
+    field("opacity", &O::opacity, unit::one, closed(0, 1), "what part of the light it stops");
+    field("opacity_texture", &O::opacity_texture, unit::none, any_number(),
+          "picture that multiplies the opacity by its alpha or, without one, its red");
+    field("cutoff", &O::cutoff, unit::one, closed(0, 1),
+          "opacity below it counts as 0, from it on as 1");
+    field("tint", &O::tint, unit::one, closed(0, 1), "colours the light it lets through");
+  }
+
+  /// Gives the parts what the keys say; what they do not say stays. Textures are looked for in
+  /// `folder`. Throws Error for one that cannot be read.
+  void paint(Parts& parts, const Cursor& at, const std::filesystem::path& folder) const;
+};
+
+}  // namespace airlight

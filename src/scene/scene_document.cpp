@@ -1,0 +1,89 @@
+#include "scene/scene_document.h"
+
+#include <bit>
+
+#include "scene/direction.h"
+#include "scene/reader.h"
+
+namespace airlight {
+namespace {
+
+void check(const Camera& camera, const Cursor& at) {
+  const auto view = unit_vector(camera.target - camera.position);
+  if (!view) at.at_or_here("target").complain("equals camera.position: the camera looks nowhere");
+  const auto up = unit_vector(camera.up);
+  if (!up) at.at_or_here("up").refuse("is no direction: at least one number must not be 0");
+  if (length(cross(*view, *up)) < 1e-6)
+    at.at_or_here("up").refuse("is parallel to the view: accepted is any other direction");
+}
+
+void check(const RenderSettings& render, const Cursor& at) {
+  if (render.samples_per_ray > 0 && !std::has_single_bit(std::uint64_t(render.samples_per_ray)))
+    at.at_or_here("samples_per_ray").refuse("is not accepted: a power of two, or 0 for all");
+}
+
+/// Adds an object's parts to the scene.
+void add(Parts parts, Scene& scene) {
+  const int first = int(scene.textures.size());
+  for (Texture& texture : parts.textures) scene.textures.push_back(std::move(texture));
+  for (Object& object : parts.objects) {
+    if (object.material.albedo_texture >= 0) object.material.albedo_texture += first;
+    if (object.material.opacity_texture >= 0) object.material.opacity_texture += first;
+    scene.objects.push_back(std::move(object));
+  }
+}
+
+Parts parts_of(const Objects& objects, const Cursor& at, const std::filesystem::path& folder) {
+  return std::visit(
+      [&](const auto& object) {
+        Parts parts = object.build(at);
+        if constexpr (requires { object.paint(parts, at, folder); })
+          object.paint(parts, at, folder);
+        object.place(parts, object.name);
+        return parts;
+      },
+      objects);
+}
+
+/// Combinations that each part of the scene accepts by itself.
+void check_together(const Scene& scene, const Cursor& at) {
+  if (scene.medium && std::holds_alternative<Unbounded>(scene.medium->shape))
+    for (const Lights& light : scene.lights)
+      if (std::holds_alternative<Directional>(light))
+        at.at_or_here("media").element(0).at_or_here("shape").complain(
+            "is unbounded, where a directional light never arrives: all of it is lost on its way "
+            "from infinitely far; give the medium a shape with an end, or leave out the light");
+}
+
+}  // namespace
+
+Scene scene_of(const Value& value, const std::filesystem::path& folder) {
+  const Cursor at(value);
+  SceneDocument document;
+  read_table(at, document);
+
+  Scene scene;
+  scene.camera = document.camera;
+  scene.resolution = document.image;
+  scene.background = document.background;
+  scene.ambient = document.ambient;
+  scene.render = document.render;
+  check(scene.camera, at.at_or_here("camera"));
+  check(scene.render, at.at_or_here("render"));
+  if (document.media.size() > 1)
+    at.at_or_here("media").element(1).complain("is a second medium: one is accepted so far");
+  if (!document.media.empty())
+    scene.medium = document.media[0].medium(at.at_or_here("media").element(0));
+  for (std::size_t i = 0; i < document.lights.size(); ++i)
+    std::visit(
+        [&](const auto& light) {
+          scene.lights.push_back(light.light(at.at_or_here("lights").element(i)));
+        },
+        document.lights[i]);
+  for (std::size_t i = 0; i < document.objects.size(); ++i)
+    add(parts_of(document.objects[i], at.at_or_here("objects").element(i), folder), scene);
+  check_together(scene, at);
+  return scene;
+}
+
+}  // namespace airlight

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "scene/light_documents.h"
+#include "scene/medium_document.h"
+#include "scene/objects.h"
+#include "scene/scene.h"
+
+namespace airlight {
+
+/// A scene as a file says it: its top level.
+struct SceneDocument {
+  Camera camera;
+  Resolution image;
+  Rgb<double> background{0, 0, 0};
+  Rgb<double> ambient{0, 0, 0};
+  std::vector<MediumDocument> media;
+  std::vector<LightDocuments> lights;
+  std::vector<Objects> objects;
+  RenderSettings render;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    using D = SceneDocument;
+    field("background", &D::background, unit::radiance, at_least(0), "seen behind everything");
+    field("ambient", &D::ambient, unit::radiance, at_least(0),
+          "light from all around; it reaches surfaces only, not the medium");
+    field("camera", &D::camera, unit::none, any_number(), "a pinhole camera");
+    field("image", &D::image, unit::none, any_number(), "the size of the picture");
+    field("media", &D::media, unit::none, any_number(), "fog, dust, smoke or water; one at most");
+    field("lights", &D::lights, unit::none, any_number(), "any number of lights");
+    field("objects", &D::objects, unit::none, any_number(),
+          "what light meets, in the file's order");
+    field("render", &D::render, unit::none, any_number(), "how the picture is made");
+  }
+};
+
+/// What a document means. Files it names are looked for in `folder`. Throws Error, one line, for
+/// everything that cannot be accepted.
+Scene scene_of(const Value& document, const std::filesystem::path& folder);
+
+}  // namespace airlight
