@@ -31,11 +31,12 @@ struct HenyeyGreenstein {
   }
 
   /// cos θ drawn from the phase function: its distribution function inverted, total on u in [0, 1].
+  /// Written about k, the sample of Schlick's phase function of eccentricity g: nothing is divided
+  /// by g, so that all of u counts however nearly isotropic the medium is.
   template <Real F>
   F sample(F u) const noexcept {
-    if (abs(g) < 1e-4) return F(2) * u - F(1);  // below, the inverse divides rounding by g
-    const F s = F((1 - g) * (1 + g)) / (F(1 - g) + F(2 * g) * u);
-    return clamp((F(1 + g * g) - s * s) * F(1 / (2 * g)), F(-1), F(1));
+    const F k = (F(2) * u - F(1 - g)) / fma(F(2 * g), u, F(1 - g));
+    return clamp(fma(F(0.5 * g), F(1) - k * k, k), F(-1), F(1));
   }
 };
 
