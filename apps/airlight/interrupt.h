@@ -1,0 +1,14 @@
+#pragma once
+
+/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks for an orderly end and the second one
+/// ends the program at once.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  /// The signal that came, or 0.
+  static int received() noexcept;
+};

@@ -1,0 +1,77 @@
+#include "outputs.h"
+
+#include <optional>
+
+#include "error.h"
+#include "flags.h"
+
+namespace airlight {
+
+template <>
+inline constexpr Word<ToneMap> words<ToneMap>[] = {
+    {"none", ToneMap::none, "clipped at 1"},
+    {"filmic", ToneMap::filmic, "bright tones roll off"},
+};
+template <>
+inline constexpr Word<ExrType> words<ExrType>[] = {
+    {"half", ExrType::half, "16 bits a value"},
+    {"float", ExrType::single, "32 bits a value"},
+};
+
+}  // namespace airlight
+
+namespace {
+
+using airlight::ExrType, airlight::ToneMap;
+
+/// How a picture is stored and shown.
+struct Development {
+  double exposure = 0;
+  ToneMap tonemap = ToneMap::none;
+  ExrType exr = ExrType::half;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    using D = Development;
+    field("exposure", &D::exposure, airlight::unit::stop, airlight::closed(-60, 60),
+          "brightens a PNG");
+    field("tonemap", &D::tonemap, airlight::unit::none, airlight::any_number(),
+          "how a PNG shows bright tones");
+    field("exr", &D::exr, airlight::unit::none, airlight::any_number(),
+          "precision of an EXR's colours");
+  }
+};
+
+}  // namespace
+
+void Outputs::declare(CLI::App& verb) {
+  verb.add_option("-o,--output", files_, "the picture: .png, .exr or .pfm; may be repeated")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->group("Output");
+  add_flags<Development>(verb, "", "Output", changes_);
+}
+
+void Outputs::check() {
+  const auto wanted = read_flags<Development>(changes_);
+  options_ = {.exr = wanted.exr,
+              .display = {.exposure = float(wanted.exposure), .tone_map = wanted.tonemap}};
+  for (const auto& file : files_) airlight::check_picture_path(file);
+}
+
+void Outputs::write(const airlight::Picture& picture) const {
+  std::optional<airlight::Error> first;
+  for (const auto& file : files_) try {
+      airlight::write_picture(file, picture, options_);
+    } catch (const airlight::Error& error) {
+      if (!first) first = error;
+    }
+  if (first) throw *first;
+}
+
+std::string Outputs::names() const {
+  std::string names;
+  for (const auto& file : files_) names += (names.empty() ? "" : ", ") + file.string();
+  return names;
+}

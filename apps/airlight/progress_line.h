@@ -1,0 +1,25 @@
+#pragma once
+#include <chrono>
+
+#include "render/render.h"
+
+/// One line on a terminal that tells how far a render is: elapsed | remaining | samples done. Shows
+/// nothing where stderr is no terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Shows the line, ten times a second at most.
+  void show(const airlight::Progress& progress);
+
+  /// Takes the line away, so that something else can be printed.
+  void clear();
+
+ private:
+  bool wanted_;
+  bool visible_ = false;
+  std::chrono::steady_clock::time_point next_;
+};

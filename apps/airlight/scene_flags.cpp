@@ -1,0 +1,44 @@
+#include "scene_flags.h"
+
+#include "error.h"
+#include "flags.h"
+#include "numbers.h"
+#include "scene/load_scene.h"
+
+void SceneFlags::declare(CLI::App& verb) {
+  verb.add_option("SCENE", file_, "a scene (.toml) or a model (.obj, .gltf, .glb)")
+      ->required()
+      ->type_name("");
+  verb.add_option_function<std::vector<std::string>>(
+          "-D",
+          [this](const std::vector<std::string>& assignments) {
+            for (const std::string& assignment : assignments) changes_.emplace_back(assignment);
+          },
+          "changes a value of the scene: PATH=VALUE, as in lights.0.irradiance=3; may be repeated")
+      ->type_name("")
+      ->allow_extra_args(false)
+      ->group("Scene");
+  verb.add_option_function<std::string>(
+          "--size",
+          [this](const std::string& text) {
+            const std::string said = "--size " + text;
+            const auto size = whole_numbers(text, 'x');
+            if (size.size() != 2)
+              throw airlight::Error(
+                  said + ": is no size; accepted: WIDTHxHEIGHT in pixels, such as 640x360");
+            changes_.emplace_back("image.width", std::to_string(size[0]), said);
+            changes_.emplace_back("image.height", std::to_string(size[1]), said);
+          },
+          "WIDTHxHEIGHT of the picture in pixels")
+      ->type_name("")
+      ->take_last()
+      ->group("Scene");
+  add_flags<airlight::RenderSettings>(verb, "render.", "Render", changes_);
+}
+
+airlight::Scene SceneFlags::load() const {
+  std::vector<airlight::Override> changes = changes_;
+  for (airlight::Override& change : changes)
+    if (change.said == "--samples-per-ray all") change.value = "0";
+  return airlight::load_scene(file_, changes);
+}
