@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "error.h"
+#include "scene/models/gltf.h"
 #include "scene/models/obj.h"
 
 namespace airlight {
@@ -14,6 +15,7 @@ Model load_model(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   if (extension == ".obj") return load_obj(path);
+  if (extension == ".gltf" || extension == ".glb") return load_gltf(path);
   throw Error(
       fmt::format("{}: \"{}\" is no model file; .obj, .gltf, .glb", path.string(), extension));
 }

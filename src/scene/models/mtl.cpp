@@ -9,6 +9,7 @@
 #include "error.h"
 #include "image/read_file.h"
 #include "scene/models/decode_together.h"
+#include "scene/models/transparent_texels.h"
 
 namespace airlight {
 namespace {
@@ -26,12 +27,6 @@ Rgb<double> fraction(const tinyobj::real_t (&c)[3]) {
 }
 
 bool is_black(const Rgb<double>& c) { return c == Rgb<double>(0, 0, 0); }
-
-bool has_transparent_texels(const Texture& texture) {
-  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
-    if (texture.rgba[i] < 255) return true;
-  return false;
-}
 
 /// A texture that a material wants. Materials that want the same share it.
 struct Wanted {

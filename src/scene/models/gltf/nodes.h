@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "scene/affine.h"
+#include "scene/models/gltf/document.h"
+#include "scene/models/model.h"
+
+namespace airlight::gltf {
+
+/// A node of the scene and where it stands.
+struct PlacedNode {
+  int node;  ///< index into the document's nodes
+  Affine to_world;
+};
+
+/// The nodes of the document's default scene, or else the first, or else all, parents before
+/// children. Throws Error if a node is its own ancestor or has two parents.
+std::vector<PlacedNode> place_nodes(const Document& document);
+
+/// The first perspective camera among the nodes.
+std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes);
+
+/// The directional lights among the nodes. What else shines is named in a remark.
+std::vector<Lights> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
+                                std::vector<std::string>& remarks);
+
+}  // namespace airlight::gltf

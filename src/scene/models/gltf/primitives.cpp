@@ -1,0 +1,170 @@
+#include "scene/models/gltf/primitives.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "error.h"
+#include "scene/models/gltf/accessor.h"
+#include "scene/models/normals.h"
+
+namespace airlight::gltf {
+namespace {
+
+constexpr std::size_t most_triangles = std::size_t{1} << 28;
+
+/// The corners of a primitive in the order they are drawn: by its indices, or one after the other.
+class Corners {
+ public:
+  Corners(const Document& document, const tinygltf::Primitive& primitive, std::size_t vertices,
+          const std::string& where)
+      : document_(document), vertices_(vertices), where_(where + ".indices") {
+    if (primitive.indices < 0) return;
+    indices_.emplace(document, primitive.indices, TINYGLTF_TYPE_SCALAR, where_);
+    if (!indices_->is_unsigned())
+      throw Error(
+          fmt::format("{}: {}: its components are signed or fractions; unsigned whole numbers",
+                      document.file, where_));
+  }
+
+  std::size_t size() const { return indices_ ? indices_->size() : vertices_; }
+
+  std::uint32_t operator[](std::size_t i) const {
+    if (!indices_) return std::uint32_t(i);
+    const std::uint32_t vertex = indices_->integer(i);
+    if (vertex >= vertices_)
+      throw Error(fmt::format("{}: {}: index {} is {}; an index below {}, the number of positions",
+                              document_.file, where_, i, vertex, vertices_));
+    return vertex;
+  }
+
+ private:
+  const Document& document_;
+  std::size_t vertices_;
+  std::string where_;
+  std::optional<Accessor> indices_;
+};
+
+std::size_t count_triangles(int mode, std::size_t corners) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) return corners / 3;
+  return corners < 3 ? 0 : corners - 2;
+}
+
+/// The corners of triangle i, turned the same way throughout.
+std::array<std::size_t, 3> triangle(int mode, std::size_t i) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) return {3 * i, 3 * i + 1, 3 * i + 2};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {0, i + 1, i + 2};
+  return {i, i + 1 + i % 2, i + 2 - i % 2};
+}
+
+/// An accessor of one of the primitive's attributes, if it has it.
+std::optional<Accessor> attribute(const Document& document, const tinygltf::Primitive& primitive,
+                                  const std::string& name, int type, const std::string& where) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return std::nullopt;
+  return Accessor(document, found->second, type, where + ".attributes." + name);
+}
+
+Vec3<double> vec3(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+std::array<float, 2> place(const std::array<float, 6>& map, const std::array<float, 3>& uv) {
+  const float u = map[0] * uv[0] + map[1] * uv[1] + map[2];
+  const float v = map[3] * uv[0] + map[4] * uv[1] + map[5];
+  return {u, 1 - v};  // ours points up
+}
+
+}  // namespace
+
+void Collector::add(const PlacedNode& placed) {
+  const tinygltf::Node& node = document_.model.nodes[std::size_t(placed.node)];
+  if (node.mesh < 0) return;
+  saw_skin_ = saw_skin_ || node.skin >= 0;
+  const auto& primitives = document_.model.meshes[std::size_t(node.mesh)].primitives;
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    add(primitives[i], placed.to_world, fmt::format("meshes[{}].primitives[{}]", node.mesh, i));
+}
+
+void Collector::add(const tinygltf::Primitive& primitive, const Affine& to_world,
+                    const std::string& where) {
+  if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+    saw_lines_ = true;
+    return;
+  }
+  const auto positions = attribute(document_, primitive, "POSITION", TINYGLTF_TYPE_VEC3, where);
+  if (!positions) return;  // glTF leaves to extensions what this means
+  const std::size_t material =
+      primitive.material >= 0 ? std::size_t(primitive.material) : materials_.size() - 1;
+  const GltfMaterial& look = materials_[material];
+  const auto normals = attribute(document_, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, where);
+  const std::string uv_name = fmt::format("TEXCOORD_{}", look.uv_set);
+  const auto uvs = look.has_texture()
+                       ? attribute(document_, primitive, uv_name, TINYGLTF_TYPE_VEC2, where)
+                       : std::optional<Accessor>{};
+  const auto hold = [&](const std::optional<Accessor>& other, const std::string& name) {
+    if (other && other->size() != positions->size())
+      throw Error(fmt::format("{}: {}.attributes.{}: {} elements; as many as positions, {}",
+                              document_.file, where, name, other->size(), positions->size()));
+  };
+  hold(normals, "NORMAL");
+  hold(uvs, uv_name);
+  saw_colours_ = saw_colours_ || primitive.attributes.contains("COLOR_0");
+
+  const Corners corners(document_, primitive, positions->size(), where);
+  const std::size_t triangles = count_triangles(primitive.mode, corners.size());
+  if ((triangles_ += triangles) > most_triangles)
+    throw Error(fmt::format("{}: {}: more than {} triangles up to here; fewer", document_.file,
+                            where, most_triangles));
+
+  Mesh& mesh = part_for(material, normals.has_value()).mesh;
+  if (copied_as_.size() < positions->size()) {
+    copied_as_.resize(positions->size());
+    copied_for_.resize(positions->size(), 0);
+  }
+  ++primitive_number_;
+  const auto copy = [&](std::uint32_t vertex) {
+    if (copied_for_[vertex] == primitive_number_) return copied_as_[vertex];
+    const Vec3<float> p(to_world.point(vec3(positions->floats(vertex))));
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw Error(
+          fmt::format("{}: {}.attributes.POSITION: element {} is not finite; finite numbers",
+                      document_.file, where, vertex));
+    mesh.positions.push_back(p);
+    if (normals)
+      mesh.normals.push_back(Vec3<float>(to_world.normal(vec3(normals->floats(vertex)))));
+    if (look.has_texture())
+      mesh.uvs.push_back(uvs ? place(look.uv_map, uvs->floats(vertex)) : std::array<float, 2>{});
+    copied_for_[vertex] = primitive_number_;
+    return copied_as_[vertex] = std::uint32_t(mesh.positions.size() - 1);
+  };
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const auto [a, b, c] = triangle(primitive.mode, i);
+    const std::uint32_t p = corners[a], q = corners[b], r = corners[c];
+    if (p == q || q == r || r == p) continue;  // strips are stitched with these
+    mesh.triangles.push_back({copy(p), copy(q), copy(r)});
+  }
+}
+
+Collector::Part& Collector::part_for(std::size_t material, bool has_normals) {
+  for (Part& part : parts_)
+    if (part.material == material && part.has_normals == has_normals) return part;
+  return parts_.emplace_back(Part{material, has_normals, {}});
+}
+
+std::vector<Object> Collector::finish(std::vector<std::string>& remarks) {
+  if (saw_lines_) remarks.push_back("points and lines of the file are left out");
+  if (saw_colours_) remarks.push_back("colours of vertices are left out");
+  if (saw_skin_) remarks.push_back("skinned meshes stand as they were modelled");
+  std::vector<Object> objects;
+  for (Part& part : parts_) {
+    if (part.mesh.triangles.empty()) continue;
+    mend_normals(part.mesh);
+    const GltfMaterial& look = materials_[part.material];
+    const bool named = !look.name.empty();
+    objects.push_back({named ? look.name : fmt::format("materials[{}]", part.material),
+                       std::move(part.mesh), look.material});
+  }
+  return objects;
+}
+
+}  // namespace airlight::gltf
