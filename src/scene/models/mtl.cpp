@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -18,6 +19,36 @@ namespace {
 std::string with_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;
+}
+
+bool is_number(const std::string& word) {
+  double x = 0;
+  const char* end = word.data() + word.size();
+  return !word.empty() && std::from_chars(word.data(), end, x).ptr == end;
+}
+
+/// Gives the options -o, -s and -t of textures all three numbers: the parser takes the file's name
+/// for a missing one.
+std::string complete_options(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, out;
+  while (std::getline(lines, line)) {
+    for (const char* option : {" -o ", " -s ", " -t "}) {
+      std::size_t end = line.find(option);
+      if (end == line.npos) continue;
+      end += 3;
+      int numbers = 0;
+      for (; numbers < 3; ++numbers) {
+        const std::size_t begin = std::min(line.find_first_not_of(' ', end), line.size());
+        const std::size_t stop = std::min(line.find(' ', begin), line.size());
+        if (!is_number(line.substr(begin, stop - begin))) break;
+        end = stop;
+      }
+      for (; numbers < 3; ++numbers) line.insert(end, option[2] == 's' ? " 1" : " 0");
+    }
+    out += line + '\n';
+  }
+  return out;
 }
 
 double fraction(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 1.0; }
@@ -119,9 +150,18 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
     missing_.push_back(name);
     return false;
   }
-  std::istringstream text(read_text(path));
+  std::istringstream text(complete_options(read_text(path)));
   tinyobj::LoadMtl(indices, materials, &text, warning, error);
   return true;
+}
+
+void place_texture(const tinyobj::material_t& mtl, Mesh& mesh) {
+  const auto& shift = mtl.diffuse_texopt.origin_offset;
+  const auto& scale = mtl.diffuse_texopt.scale;
+  if (mtl.diffuse_texname.empty() ||
+      (shift[0] == 0 && shift[1] == 0 && scale[0] == 1 && scale[1] == 1))
+    return;
+  for (auto& [u, v] : mesh.uvs) u = u * scale[0] + shift[0], v = v * scale[1] + shift[1];
 }
 
 std::vector<Material> convert_mtl(const std::vector<const tinyobj::material_t*>& materials,

@@ -35,4 +35,7 @@ std::vector<Material> convert_mtl(const std::vector<const tinyobj::material_t*>&
                                   const std::filesystem::path& folder,
                                   std::vector<Texture>& textures);
 
+/// Scales and shifts texture coordinates as the options -s and -o of map_Kd say.
+void place_texture(const tinyobj::material_t& mtl, Mesh& mesh);
+
 }  // namespace airlight

@@ -189,9 +189,11 @@ Model load_obj(const std::filesystem::path& path) {
   Model model;
   const auto materials = materials_of(parts, obj);
   const auto converted = convert_mtl(materials, path.parent_path(), model.textures);
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (materials[i]) place_texture(*materials[i], parts[i].mesh);
     model.objects.push_back({materials[i] ? materials[i]->name : path.stem().string(),
                              std::move(parts[i].mesh), converted[i]});
+  }
   model.remarks = remarks_on(materials, reader);
   return model;
 }

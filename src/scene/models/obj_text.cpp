@@ -39,6 +39,7 @@ std::string_view next_word(std::string_view& line) {
 
 /// A line as an error shows it: its beginning, without bytes that a terminal would act on.
 std::string shown(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
   std::string text(line.substr(0, 60));
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 32) c = '?';

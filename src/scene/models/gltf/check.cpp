@@ -44,6 +44,9 @@ class Checker {
 
   void check() const {
     if (!root_.value->is_object()) fail("the document", shown(*root_.value), "an object");
+    for (const char* list : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers",
+                             "images", "textures", "samplers", "materials", "cameras"})
+      array(root_, list);
     asset();
     extensions();
     index(root_, "scene", "scenes");
