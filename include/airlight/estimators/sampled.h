@@ -100,7 +100,7 @@ struct Sampled {
             watch(WatchedSample<F>{i, t, placed.pdf(t, length), weight, visible});
             const int half = half_of(halve_by_ray ? ray.index : i);
             occluded[half] += weight * visible;
-            unoccluded[half] += weight;
+            unoccluded[half] += select(ray.active, weight, Rgb<F>());
             ++count[half];
           }
         },
