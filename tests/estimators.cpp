@@ -14,7 +14,7 @@ namespace {
 using test::ExactWay;
 using test::Point;
 
-constexpr int seeds = 64;
+constexpr int seeds = 72;
 
 Point point(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 
