@@ -7,7 +7,7 @@
 #include <random>
 
 #include "error.h"
-#include "image/output.h"
+#include "scene/load_scene.h"
 #include "support/gltf_builder.h"
 #include "support/scratch.h"
 
@@ -558,6 +558,50 @@ TEST_F(Gltf, says_where_json_and_chunks_end) {
   std::string other = glb;
   other[4] = 1;
   EXPECT_EQ(complaint("a.glb", other), "a.glb: binary glTF of version 1; version 2");
+}
+
+// ---- In a scene file
+
+using InScenes = Models;
+
+TEST_F(InScenes, stand_where_the_scene_puts_them) {
+  picture("t.tga", {255, 255, 255, 255});
+  write_text(scratch_ / "m.mtl", "newmtl red\nKd 0.5 0.1 0.2\nmap_Kd t.tga\nKe 1 1 1\n");
+  write_text(scratch_ / "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  const Scene scene = load_scene(write_text(scratch_ / "s.toml", R"(
+[[objects]]
+type = "rectangle"
+albedo_texture = "t.tga"
+[[objects]]
+type = "mesh"
+file = "m.obj"
+name = "chair"
+scale = 2
+rotate = [0, 90, 0]
+translate = [0, 0, 5]
+tint = [1, 0.5, 1]
+)"));
+  ASSERT_EQ(scene.objects.size(), 2U);
+  EXPECT_EQ(scene.objects[1].name, "chair.red");
+  const Vec3<float> corner = std::get<Mesh>(scene.objects[1].geometry).positions[1];
+  EXPECT_NEAR(corner.z, 3, 1e-6);  // (1, 0, 0) → (2, 0, 0) → (0, 0, −2) → (0, 0, 3)
+  EXPECT_EQ(scene.objects[1].material.albedo_texture, 1);
+  EXPECT_NEAR(scene.objects[1].material.albedo.g, 0.1, 1e-7);
+  EXPECT_EQ(scene.objects[1].material.tint, Rgb<double>(1, 0.5, 1));
+  EXPECT_THAT(scene.assumptions, ElementsAre("light given off by surfaces is left out (red)"));
+}
+
+TEST_F(InScenes, are_complained_about_at_their_line) {
+  const auto path =
+      write_text(scratch_ / "s.toml", "[[objects]]\ntype = \"mesh\"\nfile = \"gone.obj\"\n");
+  try {
+    load_scene(path);
+    FAIL() << "a missing file was accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("s.toml:3:8: objects.0.file names a model that is not to be had: "));
+    EXPECT_THAT(error.what(), HasSubstr("gone.obj: cannot be read: No such file or directory"));
+  }
 }
 
 // ---- Files that something chewed on

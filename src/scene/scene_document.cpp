@@ -31,12 +31,17 @@ void add(Parts parts, Scene& scene) {
     if (object.material.opacity_texture >= 0) object.material.opacity_texture += first;
     scene.objects.push_back(std::move(object));
   }
+  for (std::string& remark : parts.remarks) scene.assumptions.push_back(std::move(remark));
 }
 
 Parts parts_of(const Objects& objects, const Cursor& at, const std::filesystem::path& folder) {
   return std::visit(
       [&](const auto& object) {
-        Parts parts = object.build(at);
+        Parts parts;
+        if constexpr (requires { object.build(at, folder); })
+          parts = object.build(at, folder);
+        else
+          parts = object.build(at);
         if constexpr (requires { object.paint(parts, at, folder); })
           object.paint(parts, at, folder);
         object.place(parts, object.name);

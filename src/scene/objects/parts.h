@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "scene/scene.h"
@@ -11,6 +12,7 @@ namespace airlight {
 struct Parts {
   std::vector<Object> objects;
   std::vector<Texture> textures;
+  std::vector<std::string> remarks;  ///< what a model left open or lost, a sentence each
 };
 
 /// A single part of the standard material.
