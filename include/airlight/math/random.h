@@ -62,20 +62,26 @@ struct Sampler {
   /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in each interval of length 2^-k.
   F one(std::uint32_t index, std::uint32_t stream) const noexcept {
     // reverse(index) is the van der Corput point; its scramble reverses it once more.
-    return unit_interval<F>(
-        reverse_bits(laine_karras(UInt<F>(index), mix_bits(pixel_hash ^ UInt<F>(mix_bits(stream))))));
+    return unit_interval<F>(reverse_bits(laine_karras(UInt<F>(index), mix_bits(hash(stream)))));
   }
 
   /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
   Vec2<F> two(std::uint32_t index, std::uint32_t stream) const noexcept {
-    const UInt<F> hash = mix_bits(pixel_hash ^ UInt<F>(mix_bits(stream)));
-    const UInt<F> shuffled = owen_scramble(UInt<F>(index), hash);
+    const UInt<F> h = hash(stream);
+    const UInt<F> shuffled = owen_scramble(UInt<F>(index), h);
     const UInt<F> x = reverse_bits(shuffled);
     UInt<F> y(0u), v(0x80000000u), rest = shuffled;
     for (int bit = 0; bit < 32; ++bit, rest = rest >> 1, v = v ^ (v >> 1))
       y = y ^ (v & (UInt<F>(0u) - (rest & UInt<F>(1u))));
-    return {unit_interval<F>(owen_scramble(x, mix_bits(hash ^ UInt<F>(0x9e3779b9u)))),
-            unit_interval<F>(owen_scramble(y, mix_bits(hash ^ UInt<F>(0x7f4a7c15u))))};
+    return {unit_interval<F>(owen_scramble(x, mix_bits(h ^ UInt<F>(0x9e3779b9u)))),
+            unit_interval<F>(owen_scramble(y, mix_bits(h ^ UInt<F>(0x7f4a7c15u))))};
+  }
+
+ private:
+  /// What tells a stream from another. It is mixed again before it scrambles: the low bits, which
+  /// decide the stratum, of one mix of h ^ a and of h ^ b are not independent over h.
+  UInt<F> hash(std::uint32_t stream) const noexcept {
+    return mix_bits(pixel_hash ^ UInt<F>(mix_bits(stream)));
   }
 };
 
