@@ -57,6 +57,7 @@ TEST(Text, is_escaped_for_xml) {
 TEST(Text, replaces_what_is_not_utf8) {
   EXPECT_EQ(escape("caf\xe9!"), "caf\uFFFD!");                        // Latin-1
   EXPECT_EQ(escape("\xc0\xaf"), "\uFFFD\uFFFD");                      // overlong
+  EXPECT_EQ(escape("\xe0\x80\xaf"), "\uFFFD\uFFFD\uFFFD");            // overlong, too
   EXPECT_EQ(escape("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");            // half of a surrogate pair
   EXPECT_EQ(escape("\xf4\x90\x80\x80"), "\uFFFD\uFFFD\uFFFD\uFFFD");  // beyond U+10FFFF
   EXPECT_EQ(escape("€ 🌫 \xe2\x82"), "€ 🌫 \uFFFD\uFFFD");    // cut short
@@ -386,12 +387,22 @@ TEST(Svg, refuses_lists_that_do_not_fit_together) {
   EXPECT_THROW(svg(Plot{.x = {.low = 2, .high = 1}}), Error);
 }
 
-TEST(Svg, lines_up_the_left_edges_of_a_stack) {
-  const std::string out = svg(probe_plots());
-  std::set<std::string> edges;
-  for (std::size_t at = out.find("<svg x=\""); at != out.npos; at = out.find("<svg x=\"", at + 1))
-    edges.insert(out.substr(at, out.find(" y=", at) - at));
-  EXPECT_EQ(edges.size(), 1u);
+TEST(Svg, shows_the_same_part_of_x_throughout_a_stack) {
+  std::vector<Plot> plots = probe_plots();
+  plots.insert(plots.begin(), plots[0]);
+  plots.front().y.label = "";              // a narrower margin,
+  const Line far{.x = {12}, .y = {1e-9}};  // a longer axis
+  plots.front().marks.push_back(far);
+  const std::string out = svg(plots);
+  EXPECT_EQ(count(out, ">12</text>"), 3u);
+  std::set<std::string> frames, tints;
+  for (std::size_t at = out.find("<svg x=\""); at != out.npos; at = out.find("<svg x=\"", at + 1)) {
+    frames.insert(out.substr(at, out.find(" y=", at) - at));
+    const std::size_t path = out.find("d=\"M", at);  // tints lie below all else
+    tints.insert(out.substr(path, out.find(",", path) - path));
+  }
+  EXPECT_EQ(frames.size(), 1u);
+  EXPECT_EQ(tints.size(), 1u);
 }
 
 // --- pages

@@ -111,13 +111,9 @@ double kolmogorov_smirnov_p(double distance, std::size_t n) {
   if (distance <= 0.5 / double(n)) return 1;  // no set of n samples comes closer than 1/(2n)
   if (distance >= 1) return 0;
   const double x = root * distance + 1 / (6 * root) + (root * distance - 1) / (4 * double(n));
+  if (x < 0.2) return 1;  // to 5e-13, by the dual of the series below
   double sum = 0;
-  if (x < 1) {  // the theta function turned over, which converges where the other does not
-    const double q = std::numbers::pi * std::numbers::pi / (8 * x * x);
-    for (int k = 1; k < 12; k += 2) sum += std::exp(-k * k * q);
-    return std::clamp(1 - std::sqrt(2 * std::numbers::pi) / x * sum, 0., 1.);
-  }
-  for (int k = 1; k < 12; ++k) sum += (k % 2 ? 2 : -2) * std::exp(-2 * k * k * x * x);
+  for (int k = 1; k < 20; ++k) sum += (k % 2 ? 2 : -2) * std::exp(-2 * k * k * x * x);
   return std::clamp(sum, 0., 1.);
 }
 

@@ -64,7 +64,7 @@ using Mark = std::variant<Line, Bars, Band, Rule, Shade>;
 ///
 ///     Plot plot{.title = "Convergence", .x = {"samples per pixel", Scale::log2}, .y = {"RMSE",
 ///     Scale::log}}; plot.marks.push_back(Line{.name = "rewv", .x = spp, .y = rmse, .error =
-///     spread}); page.figure(svg(plot), "…");
+///     spread}); page.figure({svg(plot), "…"});
 ///
 /// Marks are drawn in their order, tints, bands and bars below lines. Points that are not finite,
 /// or not positive on a log axis, are left out and interrupt their line. Colours and marker shapes
