@@ -11,26 +11,29 @@ namespace airlight {
 namespace {
 
 constexpr auto style = R"(
-:root{color-scheme:light dark;--paper:#fff;--ink:#1c1c1c;--muted:#5c5c5c;--line:#d9d9d9;--soft:#f5f5f3;
-  --good:#00714f;--bad:#b3261e}
-@media (prefers-color-scheme:dark){:root{--paper:#15171a;--ink:#e6e6e3;--muted:#a3a3a0;--line:#3a3d42;
-  --soft:#1e2125;--good:#4cc79b;--bad:#ff8a80;
-  --plot-paper:#15171a;--plot-ink:#e6e6e3;--plot-muted:#b0b0ad;--plot-grid:#2b2e33;--plot-axis:#85858a;
-  --plot-0:#4ba3db;--plot-1:#f2803c;--plot-2:#2fc79a;--plot-3:#e39ac4;--plot-4:#f2b740;--plot-5:#8fcdf2;
-  --plot-6:#b8b8b8}}
+:root{color-scheme:light dark;--paper:#fff;--ink:#1c1c1c;--muted:#5c5c5c;--line:#d9d9d9;
+  --soft:#f5f5f3;--good:#00714f;--bad:#b3261e}
+@media (prefers-color-scheme:dark){:root{
+  --paper:#15171a;--ink:#e6e6e3;--muted:#a3a3a0;--line:#3a3d42;--soft:#1e2125;--good:#4cc79b;
+  --bad:#ff8a80;--plot-paper:#15171a;--plot-ink:#e6e6e3;--plot-muted:#b0b0ad;--plot-grid:#2b2e33;
+  --plot-axis:#85858a;--plot-0:#4ba3db;--plot-1:#f2803c;--plot-2:#2fc79a;--plot-3:#e39ac4;
+  --plot-4:#f2b740;--plot-5:#8fcdf2;--plot-6:#b8b8b8}}
 *{box-sizing:border-box}
-body{margin:0 auto;padding:3.5rem 1.5rem 2.5rem;max-width:66rem;background:var(--paper);color:var(--ink);
+body{margin:0 auto;padding:3.5rem 1.5rem 2.5rem;max-width:66rem;background:var(--paper);
+  color:var(--ink);
   font:17px/1.55 Charter,"Bitstream Charter","Source Serif 4",Georgia,"Times New Roman",serif}
 h1{font-size:2rem;line-height:1.2;font-weight:600;margin:0 0 .6rem;text-wrap:balance}
 h2{font-size:1.35rem;font-weight:600;line-height:1.3;margin:2.8rem 0 .6rem}
 h3{font-size:1.08rem;font-weight:600;margin:1.9rem 0 .4rem}
 p,dl{margin:.7rem 0;max-width:44rem}
 .summary{font-size:1.1rem;color:var(--muted);margin-bottom:1.6rem}
-code{font:.86em ui-monospace,SFMono-Regular,Menlo,Consolas,"DejaVu Sans Mono",monospace;background:var(--soft);
-  padding:.08em .3em;border-radius:3px}
+code{font:.86em ui-monospace,SFMono-Regular,Menlo,Consolas,"DejaVu Sans Mono",monospace;
+  background:var(--soft);padding:.08em .3em;border-radius:3px}
 sub,sup{font-size:.72em;line-height:0}
-table{border-collapse:collapse;border-top:1.5px solid var(--ink);border-bottom:1.5px solid var(--ink);
-  font:14.5px/1.4 "Helvetica Neue",Helvetica,Arial,sans-serif;font-variant-numeric:tabular-nums lining-nums}
+table{border-collapse:collapse;border-top:1.5px solid var(--ink);
+  border-bottom:1.5px solid var(--ink);
+  font:14.5px/1.4 "Helvetica Neue",Helvetica,Arial,sans-serif;
+  font-variant-numeric:tabular-nums lining-nums}
 th,td{padding:.28rem .8rem;text-align:left;vertical-align:baseline}
 th{font-weight:600;border-bottom:1px solid var(--ink);vertical-align:top}
 .number{text-align:right;white-space:nowrap}
@@ -39,7 +42,8 @@ tbody+tbody tr:first-child td{border-top:1px solid var(--line)}
 .formulas{border:0}
 .formulas td{padding:.22rem 1.4rem .22rem 0}
 .formulas td:nth-child(1){font-weight:600;white-space:nowrap}
-.formulas td:nth-child(2){font-family:"STIX Two Math","Cambria Math","Latin Modern Math",Georgia,serif;font-size:1.06em}
+.formulas td:nth-child(2){
+  font-family:"STIX Two Math","Cambria Math","Latin Modern Math",Georgia,serif;font-size:1.06em}
 .formulas td:nth-child(3){color:var(--muted)}
 .holds .verdict{color:var(--good)}
 .fails td{font-weight:600}
@@ -56,8 +60,11 @@ svg.airlight-plot{display:block;max-width:100%;height:auto}
 img{display:block;max-width:100%;height:auto;background:#000}
 .beside img,.beside svg.airlight-plot{width:100%}
 img.small{image-rendering:pixelated}
-footer{margin-top:3.5rem;padding-top:.8rem;border-top:1px solid var(--line);font-size:.86rem;color:var(--muted)}
-@media (max-width:40rem){.beside{grid-template-columns:repeat(min(2,var(--columns)),minmax(0,1fr))}body{padding-top:1.5rem}}
+footer{margin-top:3.5rem;padding-top:.8rem;border-top:1px solid var(--line);font-size:.86rem;
+  color:var(--muted)}
+@media (max-width:40rem){body{padding-top:1.5rem}
+  .beside{grid-template-columns:repeat(min(2,var(--columns)),minmax(0,1fr))}
+  .beside:has(svg){grid-template-columns:1fr}}
 @media print{body{max-width:none;padding:0}figure,tr{break-inside:avoid}}
 )";
 

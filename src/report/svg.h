@@ -62,14 +62,16 @@ using Mark = std::variant<Line, Bars, Band, Rule, Shade>;
 
 /// A plot of anything over anything else.
 ///
-///     Plot plot{.title = "Convergence", .x = {"samples per pixel", Scale::log2}, .y = {"RMSE",
-///     Scale::log}}; plot.marks.push_back(Line{.name = "rewv", .x = spp, .y = rmse, .error =
-///     spread}); page.figure({svg(plot), "…"});
+///     Plot plot{.title = "Convergence"};
+///     plot.x = {"samples per pixel", Scale::log2};
+///     plot.y = {"RMSE", Scale::log};
+///     plot.marks.push_back(Line{.name = "rewv", .x = spp, .y = rmse, .error = spread});
+///     page.figure({svg(plot), "The error falls by half where samples are four times as many."});
 ///
-/// Marks are drawn in their order, tints, bands and bars below lines. Points that are not finite,
-/// or not positive on a log axis, are left out and interrupt their line. Colours and marker shapes
-/// follow the order of the marks and are told apart with every kind of colour vision (Okabe and Ito
-/// 2008).
+/// Tints, bands, bars, rules and lines are drawn in this order, marks of one kind in their own.
+/// Points that are not finite (or beyond 1e100), or not positive (or below 1e-100) on a log axis,
+/// are left out and interrupt their line. Colours and marker shapes follow the order of the marks
+/// and are told apart with every kind of colour vision (Okabe and Ito 2008).
 struct Plot {
   std::string title = "";
   Axis x = {}, y = {};
@@ -82,8 +84,8 @@ struct Plot {
 /// dark. Throws Error where the lists of a mark are not equally long.
 std::string svg(const Plot& plot);
 
-/// Several plots under each other, their left edges in line: the same x axis with different units
-/// of y.
+/// Several plots under each other, for different quantities over one x axis: their left edges are
+/// in line, and where they measure x on the same scale they show the same part of it.
 std::string svg(std::span<const Plot> plots);
 
 }  // namespace airlight
