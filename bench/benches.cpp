@@ -2,6 +2,12 @@
 
 namespace airlight::bench {
 
-std::vector<Bench> benches() { return {}; }
+Bench box_transmittance();
+
+std::vector<Bench> benches() {
+  return {
+      box_transmittance(),
+  };
+}
 
 }  // namespace airlight::bench
