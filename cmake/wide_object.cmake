@@ -25,7 +25,7 @@ function(airlight_wide_object name source)
   target_include_directories(${compiled} PRIVATE $<TARGET_PROPERTY:${wide_TARGET},INCLUDE_DIRECTORIES>)
   target_compile_definitions(${compiled} PRIVATE $<TARGET_PROPERTY:${wide_TARGET},COMPILE_DEFINITIONS>)
   # gcc 12 warns of its own AVX-512 intrinsics, whose undefined values are meant (gcc bug 105593).
-  target_compile_options(${compiled} PRIVATE -fno-gnu-unique -Wno-maybe-uninitialized ${wide_FLAGS})
+  target_compile_options(${compiled} PRIVATE -fno-gnu-unique -Wno-uninitialized -Wno-maybe-uninitialized ${wide_FLAGS})
 
   add_custom_command(OUTPUT ${object}
     COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${merged} $<TARGET_OBJECTS:${compiled}>
