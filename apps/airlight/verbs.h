@@ -1,9 +1,13 @@
 #pragma once
 #include "verb.h"
 
+Action set_up_info(CLI::App& verb);
+Action set_up_probe(CLI::App& verb);
 Action set_up_render(CLI::App& verb);
 
 /// Every verb there is. To add one: its file beside this one and its two lines here.
 inline constexpr Verb verbs[] = {
     {"render", "turn a scene into a picture", set_up_render},
+    {"probe", "tell what happens along the camera rays of a pixel", set_up_probe},
+    {"info", "tell what is in a scene and what to expect of it", set_up_info},
 };

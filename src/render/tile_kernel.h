@@ -42,11 +42,42 @@ struct PacketSums {
   Vec3<F> normal;
 };
 
-template <Real F, class Space>
+/// Adds what one light scatters into one camera ray, by the frame's estimator; `watch` is told of
+/// every sample.
+template <int channels, Real F, class Space, class L, class Watch>
+void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
+                    const MediumRay<F>& ray, SampleRange samples, const Sampler<F>& sampler,
+                    Halves<F>& sums, Watch&& watch) noexcept {
+  const bool halve_by_ray = !frame.through_centre;
+  if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
+    sampled->template add<channels>(*frame.scene.medium, space, light, index, ray, samples,
+                                    halve_by_ray, sampler, frame.world, sums, watch);
+}
+
+template <int channels, Real F, class Space, class L>
+void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
+                    const MediumRay<F>& ray, SampleRange samples, const Sampler<F>& sampler,
+                    Halves<F>& sums) noexcept {
+  add_in_scatter<channels>(frame, space, light, index, ray, samples, sampler, sums,
+                           [](const WatchedSample<F>&) {});
+}
+
+/// Is told of every camera ray while a tile is rendered; this one does not listen.
+struct Unwatched {
+  template <Real F, class Space>
+  void camera_ray(const SurfaceWalk<F, Space>&, Vec3<F> /*direction*/, Interval<F> /*inside*/,
+                  SampleRange) const noexcept {}
+  /// The same ray's part in the medium, if it has one.
+  template <Real F>
+  void medium_ray(const MediumRay<F>&) const noexcept {}
+};
+
+template <Real F, class Space, class Watcher>
 class TileKernel {
  public:
-  TileKernel(const Frame& frame, Tile& tile, const Medium* medium, const Space& space) noexcept
-      : frame_(frame), tile_(tile), medium_(medium), space_(space) {
+  TileKernel(const Frame& frame, Tile& tile, const Medium* medium, const Space& space,
+             Watcher& watcher) noexcept
+      : frame_(frame), tile_(tile), medium_(medium), space_(space), watcher_(watcher) {
     if (medium) camera_local_ = Vec3<F>(space.point(frame.camera.position));
   }
 
@@ -111,6 +142,7 @@ class TileKernel {
 
     SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler);
     walk.along(origin, direction, inside, index, active);
+    watcher_.camera_ray(walk, direction, inside, samples);
 
     const F n(Scalar<F>(samples.count));
     const bool halve_by_ray = !frame_.through_centre;
@@ -144,24 +176,17 @@ class TileKernel {
     // overflows.
     ray.entry.o = select(ray.active, ray.entry.o, Vec3<F>());
     ray.t_enter = select(ray.active, ray.t_enter, F(0));
+    watcher_.medium_ray(ray);
 
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
       std::visit(
           [&](const auto& light) {
             if (medium_->is_grey())
-              add<1>(light, i, ray, samples, halve_by_ray, sampler, sums);
+              add_in_scatter<1>(frame_, space_, light, i, ray, samples, sampler, sums.in_scatter);
             else
-              add<3>(light, i, ray, samples, halve_by_ray, sampler, sums);
+              add_in_scatter<3>(frame_, space_, light, i, ray, samples, sampler, sums.in_scatter);
           },
           frame_.scene.lights[std::size_t(i)]);
-  }
-
-  template <int channels, class L>
-  void add(const L& light, int index, const MediumRay<F>& ray, SampleRange samples,
-           bool halve_by_ray, const Sampler<F>& sampler, PacketSums<F>& sums) const noexcept {
-    if (const auto* sampled = std::get_if<Sampled>(&frame_.estimator))
-      sampled->template add<channels>(*medium_, space_, light, index, ray, samples, halve_by_ray,
-                                      sampler, frame_.world, sums.in_scatter);
   }
 
   void spill(PacketSums<F>& sums,
@@ -192,23 +217,31 @@ class TileKernel {
   Tile& tile_;
   const Medium* medium_;
   const Space& space_;
+  Watcher& watcher_;
   Vec3<F> camera_local_;
 };
 
-template <Real F>
-void render_tile(const Frame& frame, Tile& tile) {
+template <Real F, class Watcher>
+void render_tile(const Frame& frame, Tile& tile, Watcher& watcher) {
   if (!frame.scene.medium) {
     const Unbounded::Space nowhere;
-    return TileKernel<F, Unbounded::Space>(frame, tile, nullptr, nowhere).render();
+    return TileKernel<F, Unbounded::Space, Watcher>(frame, tile, nullptr, nowhere, watcher)
+        .render();
   }
   std::visit(
       [&](const auto& shape) {
         const auto space = shape.space();
-        TileKernel<F, std::remove_const_t<decltype(space)>>(frame, tile, &*frame.scene.medium,
-                                                            space)
+        TileKernel<F, std::remove_const_t<decltype(space)>, Watcher>(
+            frame, tile, &*frame.scene.medium, space, watcher)
             .render();
       },
       frame.scene.medium->shape);
+}
+
+template <Real F>
+void render_tile(const Frame& frame, Tile& tile) {
+  Unwatched nobody;
+  render_tile<F>(frame, tile, nobody);
 }
 
 template <Real F>

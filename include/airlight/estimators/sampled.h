@@ -45,6 +45,27 @@ struct Sampled {
     return nullptr;
   }
 
+  /// Where light comes from when the way out of a camera ray is found: a wide disc gives every ray
+  /// a direction of its own.
+  template <Real F>
+  static Vec3<F> toward(const Directional& light, int light_index, std::uint32_t ray,
+                        const Sampler<F>& sampler) noexcept {
+    const Vec3<F> centre(light.toward());
+    if (!(light.angular_diameter > narrow_disc)) return centre;
+    return uniform_cap(centre, F(Scalar<F>(light.cap_height())),
+                       sampler.two(ray, stream::disc(light_index)));
+  }
+
+  /// What a metre of the medium scatters, but for a factor that all channels share: it decides
+  /// between them.
+  template <Real F, int channels>
+  static Channels<F, channels> carried(const Medium& medium, const Directional& light) noexcept {
+    Channels<F, channels> result;
+    for (int c = 0; c < channels; ++c)
+      result[c] = F(Scalar<F>(medium.sigma_s[c] * light.irradiance[c]));
+    return result;
+  }
+
   /// Adds the samples of one camera ray for one light. `channels` is 1 for a grey medium and 3
   /// otherwise; `watch` is told of every sample.
   template <int channels, Real F, class Space, AnswersVisibility<F> W, class Watch>
@@ -56,8 +77,7 @@ struct Sampled {
     const bool wide = light.angular_diameter > narrow_disc;
     const F cap(Scalar<F>(light.cap_height()));
     const Vec3<F> centre(light.toward());
-    const Vec3<F> w =
-        wide ? uniform_cap(centre, cap, sampler.two(ray.index, stream::disc(light_index))) : centre;
+    const Vec3<F> w = toward(light, light_index, ray.index, sampler);
 
     using Along = Section<F, channels, Space>;
     Along section(space, ray.entry, space.vector(w), ray.t_max, extinction<F, channels>(medium));
@@ -65,16 +85,12 @@ struct Sampled {
 
     const F toward_camera = evaluate(medium.phase, dot(w, ray.direction));
     const Rgb<F> strength = Rgb<F>(medium.sigma_s * light.irradiance) * toward_camera;
-    Channels<F, channels>
-        carried;  // decides between channels only, so the common factor is left out
-    for (int c = 0; c < channels; ++c)
-      carried[c] = F(Scalar<F>(medium.sigma_s[c] * light.irradiance[c]));
 
     std::array<Rgb<F>, 2> occluded, unoccluded;
     std::array<std::uint32_t, 2> count{};
     std::visit(
         [&](const Placement auto& place) {
-          const auto placed = place.on(section, carried);
+          const auto placed = place.on(section, carried<F, channels>(medium, light));
           for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
             const F t = placed.sample(sampler.one(i, stream::distance(light_index)));
             const F length = intersect_every_step

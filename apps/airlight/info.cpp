@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include "render/summary.h"
+#include "scene_flags.h"
+#include "verbs.h"
+
+namespace {
+
+using airlight::Rgb, airlight::Summary, airlight::Vec3;
+
+constexpr const char* examples = R"(Examples:
+  airlight info scenes/sunroom.toml
+  airlight info model.glb -D render.estimator=closed_form
+)";
+
+std::string text(const Vec3<double>& v) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x + 0., v.y + 0., v.z + 0.);  // no −0
+}
+
+/// One number where the channels are equal.
+std::string text(const Rgb<double>& c) {
+  if (c.r == c.g && c.g == c.b) return fmt::format("{:.4g}", c.r);
+  return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", c.r, c.g, c.b);
+}
+
+std::string bytes(std::size_t n) { return fmt::format("{:.1f} MiB", double(n) / (1 << 20)); }
+
+void print_medium(const airlight::Medium& medium, const airlight::MediumSummary& fog) {
+  fmt::print("medium     {}\n", fog.shape);
+  fmt::print("           sigma_s {} /m, sigma_t {} /m, albedo {}\n", text(medium.sigma_s),
+             text(medium.sigma_t), text(fog.albedo));
+  fmt::print("           phase {}\n", fog.phase);
+  if (medium.emission != Rgb<double>())
+    fmt::print("           emission {} W/(m3 sr)\n", text(medium.emission));
+  fmt::print("           mean free path {} m\n", text(fog.mean_free_path));
+  if (fog.across)
+    fmt::print(
+        "           optical depth {} across (the longest way through its middle along x, y or z: "
+        "{:.4g} m)\n",
+        text(fog.optical_depth), *fog.across);
+  if (fog.enter)
+    fmt::print("           seen from {:.4g} m to {} along the middle of the picture\n", *fog.enter,
+               fog.exit ? fmt::format("{:.4g} m", *fog.exit) : "infinity");
+}
+
+void print(const airlight::Scene& scene, const Summary& summary) {
+  fmt::print("objects    {} ({} triangles, {} spheres), {} textures\n", summary.objects,
+             summary.triangles, summary.spheres, summary.textures);
+  if (!summary.bounds.empty())
+    fmt::print("bounds     {} to {} m\n", text(summary.bounds.low), text(summary.bounds.high));
+  fmt::print(
+      "camera     at {} looking at {}, vertical field of view {:.4g} degrees, {} x {} pixels\n",
+      text(scene.camera.position), text(scene.camera.target), scene.camera.fov,
+      scene.resolution.width, scene.resolution.height);
+  if (summary.medium) {
+    fmt::print("           {} the medium\n", summary.medium->camera_inside ? "inside" : "outside");
+    print_medium(*scene.medium, *summary.medium);
+  }
+  for (std::size_t i = 0; i < summary.lights.size(); ++i) {
+    const airlight::LightSummary& light = summary.lights[i];
+    fmt::print("lights.{}   {} from {}, irradiance {} W/m2, angular diameter {:.4g} degrees\n", i,
+               light.kind, text(light.toward), text(light.irradiance), light.angular_diameter);
+    if (light.lit_part)
+      fmt::print("           reaches about {:.3g} % of the fog in the picture\n",
+                 100 * *light.lit_part);
+  }
+  const airlight::MemorySummary& memory = summary.memory;
+  fmt::print("memory     about {}: geometry {}, textures {}, hierarchy {}, film {}\n",
+             bytes(memory.total()), bytes(memory.geometry), bytes(memory.textures),
+             bytes(memory.hierarchy), bytes(memory.film));
+  for (const std::string& assumption : scene.assumptions) fmt::print("assumed    {}\n", assumption);
+  for (const std::string& warning : summary.warnings) fmt::print("warning    {}\n", warning);
+}
+
+}  // namespace
+
+Action set_up_info(CLI::App& verb) {
+  const auto flags = std::make_shared<SceneFlags>();
+  verb.footer(examples);
+  flags->declare(verb);
+  return [flags] {
+    const airlight::Scene scene = flags->load();
+    print(scene, airlight::summarise(scene));
+    return 0;
+  };
+}

@@ -1,0 +1,209 @@
+#include "render/probe.h"
+
+#include <fmt/format.h>
+
+#include "error.h"
+#include "render/prepare.h"
+#include "render/tile_kernel.h"
+
+namespace airlight {
+namespace {
+
+constexpr int step_count = 512;
+
+/// Keeps every camera ray. Room for all of them is made before the kernel runs, which must not
+/// throw.
+struct RayKeeper {
+  std::vector<ProbedRay> rays;
+  std::vector<MediumRay<double>> medium_rays;  ///< t_max = 0 where a ray misses the medium
+
+  explicit RayKeeper(std::size_t most) {
+    rays.reserve(most);
+    medium_rays.reserve(most);
+  }
+
+  template <Real F, class Space>
+  void camera_ray(const SurfaceWalk<F, Space>& walk, Vec3<F> direction, Interval<F>,
+                  SampleRange samples) noexcept {
+    ProbedRay ray;
+    ray.direction = direction;
+    ray.sample_count = samples.count;
+    if (walk.object > 0) {
+      ray.hit = walk.depth;
+      ray.object = std::size_t(walk.object) - 1;
+    }
+    if (walk.t_end < far_away) ray.end = walk.t_end;
+    ray.through = walk.through;
+    ray.surface = walk.radiance;
+    ray.emission = walk.emission;
+    rays.push_back(ray);
+    medium_rays.emplace_back().t_max = 0;
+  }
+
+  template <Real F>
+  void medium_ray(const MediumRay<F>& ray) noexcept {
+    medium_rays.back() = ray;
+    rays.back().t_enter = ray.t_enter;
+    rays.back().t_exit = ray.t_enter + ray.t_max;
+  }
+};
+
+/// What the kernel does with one ray and one light, done once more with every step kept.
+template <int channels, class Space>
+class LightProbe {
+ public:
+  LightProbe(const Frame& frame, const Space& space, const Sampler<double>& sampler,
+             const MediumRay<double>& ray, const Directional& light, int light_index)
+      : frame_(frame),
+        medium_(*frame.scene.medium),
+        space_(space),
+        sampler_(sampler),
+        ray_(ray),
+        light_(light),
+        light_index_(light_index),
+        toward_(Sampled::toward(light, light_index, ray.index, sampler)),
+        section_(space, ray.entry, space.vector(toward_), ray.t_max,
+                 extinction<double, channels>(medium_)) {
+    section_.trace_way_out();
+  }
+
+  ProbedLight operator()(SampleRange samples) const {
+    ProbedLight result;
+    result.light = std::size_t(light_index_);
+    result.toward = toward_;
+    result.strength =
+        medium_.sigma_s * light_.irradiance * evaluate(medium_.phase, dot(toward_, ray_.direction));
+    result.transmittance_integral = to_rgb(section_.integral);
+    add_nodes(result);
+    add_steps(result);
+    add_samples(result, samples);
+    return result;
+  }
+
+ private:
+  void add_nodes(ProbedLight& result) const {
+    for (int i = 0; i <= section_.way.segments; ++i) {
+      // Where fewer lines touch the envelope than there are faces, segments have no length.
+      if (i > 0 && section_.way.t[i] <= section_.way.t[i - 1]) continue;
+      const double length = section_.way.length[i];
+      result.nodes.push_back({ray_.t_enter + section_.way.t[i], length, medium_.sigma_t * length});
+    }
+  }
+
+  void add_steps(ProbedLight& result) const {
+    const double width = ray_.t_max / step_count;
+    for (int i = 0; i < step_count; ++i) {
+      const double t = (i + 0.5) * width, length = section_.way.length_at(t);
+      const double along = ray_.t_enter + t;
+      ProbedStep step{along, pdf(t, length), to_rgb(section_.transmittance(length)), {}};
+      step.visibility = frame_.world.transmit(ray_.origin + ray_.direction * along, toward_,
+                                              double(far_away), light_index_, true);
+      if (ray_.filtered)
+        step.visibility *=
+            frame_.world.transmit(ray_.origin, ray_.direction, along, light_index_, true);
+      result.steps.push_back(step);
+      const Rgb<double>& seen = step.visibility;
+      if (!(seen.r > 0 || seen.g > 0 || seen.b > 0)) continue;
+      const double begin = ray_.t_enter + i * width, end = begin + width;
+      if (!result.lit.empty() && begin - result.lit.back().second < width / 2)
+        result.lit.back().second = end;
+      else
+        result.lit.emplace_back(begin, end);
+    }
+  }
+
+  double pdf(double t, double length) const {
+    const auto* sampled = std::get_if<Sampled>(&frame_.estimator);
+    if (!sampled) return 0;
+    return std::visit(
+        [&](const Placement auto& place) {
+          return place.on(section_, Sampled::carried<double, channels>(medium_, light_))
+              .pdf(t, length);
+        },
+        sampled->placement);
+  }
+
+  void add_samples(ProbedLight& result, SampleRange samples) const {
+    Halves<double> sums;
+    add_in_scatter<channels>(
+        frame_, space_, light_, light_index_, ray_, samples, sampler_, sums,
+        [&](const WatchedSample<double>& s) {
+          result.samples.push_back({s.index, ray_.t_enter + s.t, s.pdf, s.weight, s.visibility});
+        });
+    sums[0] += sums[1];
+    result.mean = sums[0] * (1. / samples.count);
+  }
+
+  const Frame& frame_;
+  const Medium& medium_;
+  const Space& space_;
+  const Sampler<double>& sampler_;
+  const MediumRay<double>& ray_;
+  const Directional& light_;
+  int light_index_;
+  Vec3<double> toward_;
+  Section<double, channels, Space> section_;
+};
+
+void probe_lights(const Frame& frame, const Sampler<double>& sampler,
+                  const MediumRay<double>& medium_ray, ProbedRay& ray, SampleRange samples) {
+  const Medium& medium = *frame.scene.medium;
+  const auto probe_light = [&]<int channels>(const auto& space, const auto& light, int index) {
+    LightProbe<channels, std::remove_cvref_t<decltype(space)>> one(frame, space, sampler,
+                                                                   medium_ray, light, index);
+    ray.lights.push_back(one(samples));
+  };
+  for (std::size_t i = 0; i < frame.scene.lights.size(); ++i)
+    std::visit(
+        [&](const auto& shape, const auto& light) {
+          const auto space = shape.space();
+          if (medium.is_grey())
+            probe_light.template operator()<1>(space, light, int(i));
+          else
+            probe_light.template operator()<3>(space, light, int(i));
+        },
+        medium.shape, frame.scene.lights[i]);
+}
+
+}  // namespace
+
+Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
+  const Resolution size = scene.resolution;
+  if (x < 0 || y < 0 || x >= size.width || y >= size.height)
+    throw Error(fmt::format("pixel {},{} is not in the picture; accepted: 0,0 to {},{}", x, y,
+                            size.width - 1, size.height - 1));
+  RenderSettings in_double = settings;
+  in_double.isa = InstructionSet::reference;
+  const World world(scene, settings.visibility);
+  const Prepared prepared = prepare(scene, world, in_double);
+
+  Tile tile{{x, y, 1, 1}, prepared.samples, std::vector<PixelSums<double>>(1)};
+  const Frame& frame = prepared.frame;
+  RayKeeper keeper(frame.through_centre ? 1 : prepared.samples.count / frame.samples_per_ray + 2);
+  render_tile<double>(frame, tile, keeper);
+
+  const PixelSums<double>& sums = tile.pixels[0];
+  Probe result;
+  result.x = x, result.y = y;
+  result.estimator = settings.estimator;
+  result.rays = std::move(keeper.rays);
+  result.mean = sums.in_scatter[0];
+  result.mean += sums.in_scatter[1];
+  result.mean = result.mean * (1 / sums.sample_count());
+  result.in_scatter = result.mean.radiance();
+  result.surface = sums.surface * (1 / sums.sample_count());
+  result.radiance = result.in_scatter + result.surface;
+
+  const Sampler<double> sampler{pixel_hash(frame.seed, std::uint32_t(x), std::uint32_t(y))};
+  SampleRange samples{prepared.samples.first, 0};
+  for (std::size_t i = 0; i < result.rays.size(); ++i) {
+    ProbedRay& ray = result.rays[i];
+    samples.count = ray.sample_count;
+    ray.origin = frame.camera.position;
+    if (ray.t_enter) probe_lights(frame, sampler, keeper.medium_rays[i], ray, samples);
+    samples.first += samples.count;
+  }
+  return result;
+}
+
+}  // namespace airlight

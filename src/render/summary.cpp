@@ -1,0 +1,221 @@
+#include "render/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "error.h"
+#include "geometry/world.h"
+#include "render/prepare.h"
+
+namespace airlight {
+namespace {
+
+constexpr double hundredth = 4.605170185988091;  // ln 100: the optical depth that passes 1 %
+
+double least(const Rgb<double>& c) { return std::min({c.r, c.g, c.b}); }
+
+template <class F>
+Rgb<double> each(const Rgb<double>& c, F&& f) {
+  return {f(c.r), f(c.g), f(c.b)};
+}
+
+/// "henyey-greenstein, g = 0.3".
+template <class T>
+std::string with_parameters(const T& thing) {
+  std::string text = thing.name;
+  if constexpr (requires { T::describe([](auto&&...) {}); })
+    T::describe([&](const char* key, auto member, auto&&...) {
+      const auto& value = thing.*member;
+      using Value = std::remove_cvref_t<decltype(value)>;
+      if constexpr (std::is_arithmetic_v<Value>)
+        text += fmt::format(", {} = {}", key, value);
+      else
+        text += fmt::format(", {} = [{}, {}, {}]", key, value.x, value.y, value.z);
+    });
+  return text;
+}
+
+std::string shape_text(const Convex& shape) {
+  return fmt::format("convex, {} faces", shape.face_count);
+}
+template <class S>
+std::string shape_text(const S& shape) {
+  return with_parameters(shape);
+}
+
+/// A point in the middle of a shape, if it has one.
+std::optional<Vec3<double>> middle(const Box& box) { return (box.min + box.max) * 0.5; }
+std::optional<Vec3<double>> middle(const Convex& shape) { return shape.centre; }
+std::optional<Vec3<double>> middle(const Unbounded&) { return std::nullopt; }
+
+Interval<double> chord(const Shapes& shapes, Vec3<double> from, Vec3<double> direction) {
+  return std::visit(
+      [&](const auto& shape) {
+        const auto space = shape.space();
+        return space.clip(LocalRay<double>{space.point(from), space.vector(direction)});
+      },
+      shapes);
+}
+
+/// The longest way through the middle of a shape along the axes.  [m]
+std::optional<double> across(const Shapes& shapes) {
+  const auto centre = std::visit([](const auto& shape) { return middle(shape); }, shapes);
+  if (!centre) return std::nullopt;
+  double longest = 0;
+  for (const Vec3<double>& axis :
+       {Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0), Vec3<double>(0, 0, 1)})
+    longest = std::max(longest,
+                       chord(shapes, *centre, axis).t_exit + chord(shapes, *centre, -axis).t_exit);
+  return longest;
+}
+
+MediumSummary summary_of(const Medium& medium, const Camera& camera) {
+  MediumSummary result;
+  result.shape = std::visit([](const auto& shape) { return shape_text(shape); }, medium.shape);
+  result.phase = std::visit([](const auto& phase) { return with_parameters(phase); }, medium.phase);
+  const Rgb<double> inverse = each(medium.sigma_t, [](double s) { return s > 0 ? 1 / s : 0; });
+  result.albedo = medium.sigma_s * inverse;
+  result.mean_free_path = each(medium.sigma_t, [](double s) { return 1 / std::max(s, 0.); });
+  result.across = across(medium.shape);
+  result.optical_depth = medium.sigma_t * result.across.value_or(0);
+  const double distance = length(camera.target - camera.position);
+  const Interval<double> view =
+      chord(medium.shape, camera.position, (camera.target - camera.position) * (1 / distance));
+  if (view.t_exit > view.t_enter) {
+    result.camera_inside = view.t_enter <= 0;
+    result.enter = view.t_enter;
+    if (view.t_exit < far_away) result.exit = view.t_exit;
+    result.to_target = std::max(std::min(view.t_exit, distance) - view.t_enter, 0.);
+  }
+  return result;
+}
+
+/// Points in the fog that the camera sees: some on each of a coarse grid of camera rays.
+std::vector<Vec3<double>> points_in_view(const Scene& scene, const World& world) {
+  constexpr int columns = 48, rows = 27, on_a_ray = 6;
+  std::vector<Vec3<double>> points;
+  const CameraFrame camera = camera_frame(scene.camera, scene.resolution);
+  for (int i = 0; i < columns * rows; ++i) {
+    const double x = (i % columns + 0.5) / columns * scene.resolution.width;
+    const double y = (i / columns + 0.5) / rows * scene.resolution.height;
+    const Vec3<double> direction = normalize(camera.corner + camera.right * x + camera.down * y);
+    const Interval<double> inside = chord(scene.medium->shape, camera.position, direction);
+    const Hit<double> hit = world.closest<double>(camera.position, direction, 0., true);
+    // Of an unbounded medium, what lies within a few mean free paths counts.
+    const double far = inside.t_enter + 3 / std::max(least(scene.medium->sigma_t), 1e-9);
+    const double end = std::min({hit.found ? hit.t : far_away, inside.t_exit, far});
+    if (!(end > inside.t_enter)) continue;
+    for (int k = 0; k < on_a_ray; ++k)
+      points.push_back(camera.position + direction * (inside.t_enter + (k + 0.5) / on_a_ray *
+                                                                           (end - inside.t_enter)));
+  }
+  return points;
+}
+
+LightSummary summary_of(const Directional& light, int index, const World& world,
+                        const std::vector<Vec3<double>>& points) {
+  LightSummary result{light.name, light.toward(), light.irradiance, light.angular_diameter, {}};
+  if (points.empty()) return result;
+  std::size_t lit = 0;
+  for (const Vec3<double>& p : points) {
+    const Rgb<double> passes = world.transmit<double>(p, light.toward(), far_away, index, true);
+    lit += passes.r > 0 || passes.g > 0 || passes.b > 0;
+  }
+  result.lit_part = double(lit) / double(points.size());
+  return result;
+}
+
+void count(const Scene& scene, Summary& result) {
+  constexpr std::size_t hierarchy_bytes_a_triangle = 100;  // Embree's default quality, roughly
+  result.objects = scene.objects.size();
+  result.textures = scene.textures.size();
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.geometry);
+    if (!mesh) {
+      ++result.spheres;
+      continue;
+    }
+    result.triangles += mesh->triangles.size();
+    result.memory.geometry +=
+        std::span(mesh->positions).size_bytes() + std::span(mesh->normals).size_bytes() +
+        std::span(mesh->uvs).size_bytes() + std::span(mesh->triangles).size_bytes();
+  }
+  for (const Texture& texture : scene.textures) result.memory.textures += texture.rgba.size();
+  result.memory.hierarchy = hierarchy_bytes_a_triangle * result.triangles;
+  result.memory.film = sizeof(PixelSums<float>) * std::size_t(scene.resolution.width) *
+                       std::size_t(scene.resolution.height);
+  result.bounds = bounds_of(scene);
+}
+
+void warn_of_medium(const Scene& scene, const MediumSummary& fog,
+                    std::vector<std::string>& warnings) {
+  const Medium& medium = *scene.medium;
+  const double opaque_after = hundredth / least(medium.sigma_t);
+  const double across = fog.across.value_or(far_away);
+  if (fog.to_target > opaque_after)
+    warnings.push_back(
+        fmt::format("fog is opaque after {:.2g} m (1 % passes), and there are {:.3g} m of it "
+                    "between the camera and its target",
+                    opaque_after, fog.to_target));
+  else if (opaque_after < across / 2)
+    warnings.push_back(fmt::format(
+        "fog is opaque after {:.2g} m (1 % passes); it is {:.3g} m across", opaque_after, across));
+  if (!fog.enter)
+    warnings.push_back("the camera is outside the fog and does not look into it");
+  else if (!fog.camera_inside)
+    warnings.push_back(
+        fmt::format("the camera is outside the fog, which begins {:.3g} m ahead", *fog.enter));
+  if (medium.sigma_s == Rgb<double>() && medium.emission == Rgb<double>())
+    warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
+  if (scene.ambient != Rgb<double>())
+    warnings.push_back(
+        "ambient lights surfaces only: light of the sky that scatters in the fog is not part of "
+        "the model");
+}
+
+void warn_of_lights(const Scene& scene, const Summary& summary,
+                    std::vector<std::string>& warnings) {
+  if (scene.lights.empty()) warnings.push_back("no light: the fog stays dark");
+  for (std::size_t i = 0; i < summary.lights.size(); ++i) {
+    if (summary.lights[i].irradiance == Rgb<double>())
+      warnings.push_back(fmt::format("lights.{} is black", i));
+    if (summary.lights[i].lit_part == 0.)
+      warnings.push_back(fmt::format(
+          "lights.{} cannot enter: objects shadow all of the fog that the camera sees", i));
+  }
+}
+
+}  // namespace
+
+Summary summarise(const Scene& scene) {
+  Summary result;
+  count(scene, result);
+  const World world(scene, scene.render.visibility);
+  std::vector<Vec3<double>> points;
+  if (scene.medium) {
+    result.medium = summary_of(*scene.medium, scene.camera);
+    points = points_in_view(scene, world);
+    warn_of_medium(scene, *result.medium, result.warnings);
+  } else {
+    result.warnings.push_back("no medium: the picture shows surfaces only");
+  }
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    std::visit(
+        [&](const auto& light) {
+          result.lights.push_back(summary_of(light, int(i), world, points));
+        },
+        scene.lights[i]);
+  warn_of_lights(scene, result, result.warnings);
+  if (scene.objects.empty()) result.warnings.push_back("no objects: nothing throws a shadow");
+  try {
+    check_settings(scene, scene.render);
+  } catch (const Error& error) {
+    result.warnings.push_back(error.what());
+  }
+  return result;
+}
+
+}  // namespace airlight
