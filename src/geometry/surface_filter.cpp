@@ -12,35 +12,26 @@ SurfaceFilter::SurfaceFilter(const Scene& scene, const Object& object)
       tint_(object.material.tint),
       tint_is_white_(object.material.tint == Rgb<double>(1.0)) {
   const Material& material = object.material;
-  cutoff_ = float(material.cutoff);
-  factor_ = float(material.opacity);
-  if (material.opacity_texture < 0) {
-    opacity_ = cut(factor_);
-    return;
-  }
-  texture_ = &scene.textures[std::size_t(material.opacity_texture)];
+  opacity_ = cut(material.opacity);
+  if (material.opacity_texture < 0) return;
+
+  const Texture& texture = scene.textures[std::size_t(material.opacity_texture)];
   channel_ = material.opacity_from_alpha ? 3 : 0;
-  // Models are full of leaves' textures on things without holes: those need not be looked up ray by
-  // ray.
-  const std::size_t texels = std::size_t(texture_->width) * std::size_t(texture_->height);
-  bool full = true;
-  for (std::size_t i = 0; i < texels && full; ++i)
-    full = texture_->rgba[4 * i + std::size_t(channel_)] == 255;
-  if (full) {
-    opacity_ = cut(factor_);
-    texture_ = nullptr;
-  }
+  // Models give pictures with an alpha channel to things without holes: rays need not look there.
+  for (std::size_t i = channel_; i < texture.rgba.size(); i += 4)
+    if (texture.rgba[i] != 255) texture_ = &texture;
 }
 
-float SurfaceFilter::cut(float opacity) const noexcept {
-  if (cutoff_ < 0) return std::clamp(opacity, 0.f, 1.f);
-  return opacity < cutoff_ ? 0.f : 1.f;
+double SurfaceFilter::cut(double opacity) const noexcept {
+  const double cutoff = object_->material.cutoff;
+  if (cutoff < 0) return std::clamp(opacity, 0.0, 1.0);
+  return opacity < cutoff ? 0 : 1;
 }
 
 float SurfaceFilter::opacity(std::uint32_t primitive, float u, float v) const noexcept {
-  if (texture_ == nullptr) return opacity_;
+  if (!varies()) return float(opacity_);
   const auto [s, t] = texture_coordinates(*object_, primitive, u, v);
-  return cut(factor_ * texture_->sample(s, t)[std::size_t(channel_)]);
+  return float(cut(object_->material.opacity * double(texture_->sample(s, t)[channel_])));
 }
 
 std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t primitive, float u,
@@ -54,10 +45,10 @@ std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t pri
   return {w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]};
 }
 
-std::array<float, 2> sphere_coordinates(Vec3<float> n) noexcept {
-  const float turn = std::atan2(-n.z, n.x) * float(0.5 / pi);
+std::array<float, 2> sphere_coordinates(float x, float y, float z) noexcept {
+  const float turn = std::atan2(-z, x) * float(0.5 / pi);
   return {turn < 0 ? turn + 1 : turn,
-          0.5f + std::atan2(n.y, std::sqrt(n.x * n.x + n.z * n.z)) * float(1 / pi)};
+          0.5f + std::atan2(y, std::sqrt(x * x + z * z)) * float(1 / pi)};
 }
 
 Vec3<float> sphere_normal(float u, float v) noexcept {

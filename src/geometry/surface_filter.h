@@ -17,33 +17,36 @@ class SurfaceFilter {
  public:
   SurfaceFilter(const Scene& scene, const Object& object);
 
+  /// Whether the opacity varies from point to point.
+  bool varies() const noexcept { return texture_ != nullptr; }
   /// Whether no light passes anywhere.
-  bool is_opaque() const noexcept { return texture_ == nullptr && opacity_ >= 1; }
-  /// Whether all light passes everywhere, unchanged.
-  bool is_clear() const noexcept { return texture_ == nullptr && opacity_ <= 0 && tint_is_white_; }
-
-  /// The part of the light that is held back, before the tint, in [0, 1].
-  float opacity(std::uint32_t primitive, float u, float v) const noexcept;
-  /// What light is multiplied by that crosses the surface: (1 − opacity) · tint.
-  Rgb<float> transmittance(std::uint32_t primitive, float u, float v) const noexcept {
-    return transmittance(opacity(primitive, u, v));
-  }
-  Rgb<float> transmittance(float opacity) const noexcept { return tint_ * (1 - opacity); }
-  /// Whether the surface does nothing to light there, so that one cannot see it either.
+  bool is_opaque() const noexcept { return !varies() && opacity_ >= 1; }
+  /// Whether all light passes everywhere, unchanged: the surface cannot be seen either.
+  bool is_clear() const noexcept { return !varies() && opacity_ <= 0 && tint_is_white_; }
+  /// The same at one point.
   bool is_clear(std::uint32_t primitive, float u, float v) const noexcept {
     return tint_is_white_ && opacity(primitive, u, v) <= 0;
   }
 
+  /// The part of the light that is held back, before the tint, in [0, 1].
+  float opacity(std::uint32_t primitive, float u, float v) const noexcept;
+
+  /// What light is multiplied by that crosses the surface, (1 − opacity) · tint, if it does not
+  /// vary.
+  Rgb<double> transmittance() const noexcept { return tint_ * (1 - opacity_); }
+  /// The same at one point.
+  Rgb<float> transmittance(std::uint32_t primitive, float u, float v) const noexcept {
+    return Rgb<float>(tint_ * double(1 - opacity(primitive, u, v)));
+  }
+
  private:
-  float cut(float opacity) const noexcept;
+  double cut(double opacity) const noexcept;
 
   const Object* object_;
   const Texture* texture_ = nullptr;  ///< of the opacity, if it varies
-  int channel_ = 0;                   ///< of the texture
-  float factor_ = 1;                  ///< of the texture's opacity
-  float cutoff_ = -1;                 ///< as Material::cutoff
-  float opacity_ = 1;                 ///< where there is no texture
-  Rgb<float> tint_;
+  std::size_t channel_ = 0;           ///< of the texture
+  double opacity_ = 1;                ///< where it does not vary
+  Rgb<double> tint_;
   bool tint_is_white_;
 };
 
@@ -52,9 +55,10 @@ class SurfaceFilter {
 std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t primitive, float u,
                                          float v) noexcept;
 
-/// Longitude and latitude of a sphere's outward normal (need not be unit), both in [0, 1]: u = 0
-/// faces +x, u = 1/4 faces −z, v = 1 is the pole +y.
-std::array<float, 2> sphere_coordinates(Vec3<float> normal) noexcept;
+/// Longitude and latitude of a sphere's outward normal (x, y, z), which need not be unit, both in
+/// [0, 1]: u = 0 faces +x, u = 1/4 faces −z, v = 1 is the pole +y. Plain numbers, because objects
+/// of every instruction set call it, in which the core's types have different names.
+std::array<float, 2> sphere_coordinates(float x, float y, float z) noexcept;
 
 /// The unit normal that `sphere_coordinates` came from.
 Vec3<float> sphere_normal(float u, float v) noexcept;

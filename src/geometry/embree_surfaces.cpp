@@ -1,0 +1,101 @@
+#include "embree_surfaces.h"
+
+#include "error.h"
+#include "scene/scene.h"
+
+namespace airlight {
+
+namespace {
+
+// Surfaces that let light through answer Embree here: what each ray's light is multiplied by grows
+// by a factor, and the ray goes on unless nothing is left of it.
+void filter_shadow(const RTCFilterFunctionNArguments* call) {
+  const auto& surface = *static_cast<const SurfaceFilter*>(call->geometryUserPtr);
+  auto& product = *reinterpret_cast<PacketContext*>(call->context);
+  for (unsigned i = 0; i < call->N; ++i) {
+    if (call->valid[i] != -1) continue;
+    const Rgb<float> factor =
+        surface.transmittance(RTCHitN_primID(call->hit, call->N, i),
+                              RTCHitN_u(call->hit, call->N, i), RTCHitN_v(call->hit, call->N, i));
+    const unsigned ray = RTCRayN_id(call->ray, call->N, i);
+    product.red[ray] *= factor.r;
+    product.green[ray] *= factor.g;
+    product.blue[ray] *= factor.b;
+    if (product.red[ray] > 0 || product.green[ray] > 0 || product.blue[ray] > 0) call->valid[i] = 0;
+  }
+}
+
+// What does nothing to light is not seen.
+void filter_hit(const RTCFilterFunctionNArguments* call) {
+  const auto& surface = *static_cast<const SurfaceFilter*>(call->geometryUserPtr);
+  for (unsigned i = 0; i < call->N; ++i) {
+    if (call->valid[i] == -1 &&
+        surface.is_clear(RTCHitN_primID(call->hit, call->N, i), RTCHitN_u(call->hit, call->N, i),
+                         RTCHitN_v(call->hit, call->N, i)))
+      call->valid[i] = 0;
+  }
+}
+
+}  // namespace
+
+EmbreeSurfaces::EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter> surfaces)
+    : scene_(&scene), device_(rtcNewDevice(nullptr)) {
+  if (device_ == nullptr) throw Error("Embree does not start on this machine; it needs SSE2");
+  embree_.reset(rtcNewScene(device_.get()));
+  // Without the flag light leaks through shared edges. Medium quality builds without splitting
+  // triangles, so that a filter meets each of them once.
+  rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(embree_.get(), RTC_BUILD_QUALITY_MEDIUM);
+  for (std::uint32_t id = 0; id < scene.objects.size(); ++id)
+    if (!surfaces[id].is_clear()) attach(id, surfaces[id]);
+  rtcCommitScene(embree_.get());
+  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
+    throw Error("the scene's surfaces are too many for this machine's memory");
+}
+
+void EmbreeSurfaces::attach(std::uint32_t id, const SurfaceFilter& surface) {
+  const Object& object = scene_->objects[id];
+  const auto* mesh = std::get_if<Mesh>(&object.geometry);
+  if (mesh != nullptr && mesh->triangles.empty()) return;
+
+  const RTCGeometry geometry = rtcNewGeometry(
+      device_.get(), mesh != nullptr ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  if (mesh != nullptr) {
+    using Position = decltype(mesh->positions)::value_type;
+    using Triangle = decltype(mesh->triangles)::value_type;
+    const auto& positions = mesh->positions;
+    // Embree reads 16 bytes from every position: the last one needs room behind it.
+    if (positions.capacity() > positions.size())
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                 positions.data(), 0, sizeof(Position), positions.size());
+    else if (void* copy =
+                 rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                         sizeof(Position), positions.size()))
+      std::memcpy(copy, positions.data(), positions.size() * sizeof(Position));
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh->triangles.data(), 0, sizeof(Triangle), mesh->triangles.size());
+  } else {
+    const auto& [centre, radius] = std::get<Sphere>(object.geometry);
+    const std::array<float, 4> sphere{float(centre.x), float(centre.y), float(centre.z),
+                                      float(radius)};
+    if (void* copy = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                             sizeof sphere, 1))
+      std::memcpy(copy, sphere.data(), sizeof sphere);
+  }
+  has_spheres_ = has_spheres_ || mesh == nullptr;
+  if (!surface.is_opaque()) {
+    has_filters_ = true;
+    rtcSetGeometryUserData(geometry, const_cast<SurfaceFilter*>(&surface));
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_shadow);
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(embree_.get(), geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+bool EmbreeSurfaces::is_sphere(std::uint32_t object) const noexcept {
+  return std::holds_alternative<Sphere>(scene_->objects[object].geometry);
+}
+
+}  // namespace airlight
