@@ -7,32 +7,46 @@ namespace airlight {
 
 namespace {
 
-// Surfaces that let light through answer Embree here: what each ray's light is multiplied by grows
-// by a factor, and the ray goes on unless nothing is left of it.
+/// Where on its object Embree met a surface.
+struct Point {
+  std::uint32_t primitive;
+  float u, v;
+};
+
+Point point_of(const SurfaceFilter& surface, RTCHitN* hit, unsigned n, unsigned i) noexcept {
+  const std::uint32_t primitive = RTCHitN_primID(hit, n, i);
+  if (!surface.on_sphere()) return {primitive, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i)};
+  const auto [u, v] =
+      sphere_coordinates(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
+  return {primitive, u, v};
+}
+
+/// Embree asks here what becomes of shadow rays that meet a surface that is not opaque: their light
+/// is multiplied by a factor, and they go on unless nothing is left of it.
 void filter_shadow(const RTCFilterFunctionNArguments* call) {
   const auto& surface = *static_cast<const SurfaceFilter*>(call->geometryUserPtr);
-  auto& product = *reinterpret_cast<PacketContext*>(call->context);
+  auto& context = *reinterpret_cast<PacketContext*>(call->context);
   for (unsigned i = 0; i < call->N; ++i) {
     if (call->valid[i] != -1) continue;
-    const Rgb<float> factor =
-        surface.transmittance(RTCHitN_primID(call->hit, call->N, i),
-                              RTCHitN_u(call->hit, call->N, i), RTCHitN_v(call->hit, call->N, i));
-    const unsigned ray = RTCRayN_id(call->ray, call->N, i);
-    product.red[ray] *= factor.r;
-    product.green[ray] *= factor.g;
-    product.blue[ray] *= factor.b;
-    if (product.red[ray] > 0 || product.green[ray] > 0 || product.blue[ray] > 0) call->valid[i] = 0;
+    Passage& passage = context.passages[RTCRayN_id(call->ray, call->N, i)];
+    if (passage.cross(RTCHitN_geomID(call->hit, call->N, i), RTCRayN_tfar(call->ray, call->N, i))) {
+      const auto [primitive, u, v] = point_of(surface, call->hit, call->N, i);
+      const Rgb<float> factor = surface.transmittance(primitive, u, v);
+      passage.red *= factor.r;
+      passage.green *= factor.g;
+      passage.blue *= factor.b;
+    }
+    if (passage.red > 0 || passage.green > 0 || passage.blue > 0) call->valid[i] = 0;
   }
 }
 
-// What does nothing to light is not seen.
+/// The same for rays that look for the closest surface: what does nothing to light is not seen.
 void filter_hit(const RTCFilterFunctionNArguments* call) {
   const auto& surface = *static_cast<const SurfaceFilter*>(call->geometryUserPtr);
   for (unsigned i = 0; i < call->N; ++i) {
-    if (call->valid[i] == -1 &&
-        surface.is_clear(RTCHitN_primID(call->hit, call->N, i), RTCHitN_u(call->hit, call->N, i),
-                         RTCHitN_v(call->hit, call->N, i)))
-      call->valid[i] = 0;
+    if (call->valid[i] != -1) continue;
+    const auto [primitive, u, v] = point_of(surface, call->hit, call->N, i);
+    if (surface.is_clear(primitive, u, v)) call->valid[i] = 0;
   }
 }
 

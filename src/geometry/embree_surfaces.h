@@ -51,11 +51,8 @@ template <Real F>
 Rgb<F> EmbreeSurfaces::transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> active) const noexcept {
   using Calls = PacketCalls<lanes<F>>;
   PacketContext context;
-  if (has_filters_) {
-    context.red.fill(1);
-    context.green.fill(1);
-    context.blue.fill(1);
-  }
+  if (has_filters_)
+    for (int i = 0; i < lanes<F>; ++i) context.passages[std::size_t(i)].start();
   alignas(64) std::int32_t valid[lanes<F>];
   store_mask<F>(active, valid);
   typename Calls::Ray ray;
@@ -64,11 +61,16 @@ Rgb<F> EmbreeSurfaces::transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> acti
 
   // Embree marks what is blocked by a negative end.
   const Mask<F> free = active && load<F>(first_lane(ray.tfar)) >= F(0);
-  const F none(0);
-  if (!has_filters_) return Rgb<F>(select(free, F(1), none));
-  return {select(free, load<F>(context.red.data()), none),
-          select(free, load<F>(context.green.data()), none),
-          select(free, load<F>(context.blue.data()), none)};
+  if (!has_filters_) return Rgb<F>(select(free, F(1), F(0)));
+  Scalar<F> passed[3][lanes<F>];
+  for (int i = 0; i < lanes<F>; ++i) {
+    const Passage& passage = context.passages[std::size_t(i)];
+    passed[0][i] = passage.red;
+    passed[1][i] = passage.green;
+    passed[2][i] = passage.blue;
+  }
+  const Rgb<F> product(load<F>(passed[0]), load<F>(passed[1]), load<F>(passed[2]));
+  return select<F>(free, product, Rgb<F>());
 }
 
 template <Real F>

@@ -13,7 +13,8 @@ struct Scene;
 
 /// Every sphere and every triangle of a scene, asked in turn in the ray's own arithmetic: slow, and
 /// in double exact enough to be held against closed forms. Triangles that share an edge share out
-/// the rays that go through it: just one of them has each.
+/// the rays that go through it: just one of them has each. (About a ray that meets a corner to the
+/// last bit they may disagree.)
 class ExactSurfaces {
  public:
   explicit ExactSurfaces(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace airlight {
@@ -54,12 +55,36 @@ T* first_lane(T (&member)[n]) noexcept {
   return member;
 }
 
-/// What goes with a packet through Embree to the filters of translucent surfaces. Embree's part
-/// comes first: filters are handed a pointer to it.
+/// What happened to the light of a ray so far, on its way through surfaces that are not opaque.
+struct Passage {
+  float red, green, blue;  ///< the product over the surfaces crossed
+  unsigned crossings;      ///< their number
+  /// The last crossings in a ring: of which object, and where.
+  std::array<std::uint32_t, 4> object;
+  std::array<float, 4> t;
+
+  void start() noexcept {
+    red = green = blue = 1;
+    crossings = 0;
+  }
+
+  /// Notes a crossing, unless Embree told of it before: it gives a ray that meets a shared edge to
+  /// both triangles, shortly after one another. Returns whether it is a new one.
+  bool cross(std::uint32_t crossed, float at) noexcept {
+    for (unsigned i = 0; i < crossings && i < object.size(); ++i)
+      if (object[i] == crossed && std::abs(t[i] - at) <= 4e-7f * at) return false;
+    object[crossings % object.size()] = crossed;
+    t[crossings % object.size()] = at;
+    ++crossings;
+    return true;
+  }
+};
+
+/// What goes with a packet through Embree to the filters of surfaces that are not opaque. Embree's
+/// part comes first: filters are handed a pointer to it.
 struct PacketContext {
   RTCIntersectContext embree;
-  std::array<float, 16> red, green,
-      blue;  ///< the product over the surfaces crossed so far, by ray id
+  std::array<Passage, 16> passages;  ///< by ray id
 
   PacketContext() noexcept { rtcInitIntersectContext(&embree); }
 };

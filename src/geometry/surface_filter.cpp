@@ -9,6 +9,7 @@ namespace airlight {
 
 SurfaceFilter::SurfaceFilter(const Scene& scene, const Object& object)
     : object_(&object),
+      on_sphere_(std::holds_alternative<Sphere>(object.geometry)),
       tint_(object.material.tint),
       tint_is_white_(object.material.tint == Rgb<double>(1.0)) {
   const Material& material = object.material;

@@ -17,6 +17,8 @@ class SurfaceFilter {
  public:
   SurfaceFilter(const Scene& scene, const Object& object);
 
+  /// Whether the object is a sphere.
+  bool on_sphere() const noexcept { return on_sphere_; }
   /// Whether the opacity varies from point to point.
   bool varies() const noexcept { return texture_ != nullptr; }
   /// Whether no light passes anywhere.
@@ -43,6 +45,7 @@ class SurfaceFilter {
   double cut(double opacity) const noexcept;
 
   const Object* object_;
+  bool on_sphere_;
   const Texture* texture_ = nullptr;  ///< of the opacity, if it varies
   std::size_t channel_ = 0;           ///< of the texture
   double opacity_ = 1;                ///< where it does not vary
