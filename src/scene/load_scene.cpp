@@ -9,7 +9,7 @@ namespace {
 Scene scene_of(Value document, const std::filesystem::path& path,
                const std::vector<Override>& overrides) {
   for (const Override& change : overrides) apply(change, document);
-  return scene_of(document, path.parent_path());
+  return scene_of(document, Files{path.parent_path()});
 }
 
 }  // namespace

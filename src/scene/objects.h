@@ -1,14 +1,21 @@
 #pragma once
 #include <variant>
 
+#include "scene/objects/blinds.h"
 #include "scene/objects/box.h"
+#include "scene/objects/boxes.h"
+#include "scene/objects/disc.h"
 #include "scene/objects/mesh.h"
 #include "scene/objects/rectangle.h"
+#include "scene/objects/rose_window.h"
 #include "scene/objects/sphere.h"
+#include "scene/objects/tree.h"
+#include "scene/objects/wall.h"
 
 namespace airlight {
 
 /// Every kind of object a scene file can name. To add one: its file in objects/ and its name here.
-using Objects = std::variant<SphereObject, BoxObject, RectangleObject, MeshObject>;
+using Objects = std::variant<SphereObject, BoxObject, BoxesObject, RectangleObject, DiscObject,
+                             WallObject, BlindsObject, RoseWindowObject, TreeObject, MeshObject>;
 
 }  // namespace airlight

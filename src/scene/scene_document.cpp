@@ -34,16 +34,16 @@ void add(Parts parts, Scene& scene) {
   for (std::string& remark : parts.remarks) scene.assumptions.push_back(std::move(remark));
 }
 
-Parts parts_of(const Objects& objects, const Cursor& at, const std::filesystem::path& folder) {
+Parts parts_of(const Objects& objects, const Cursor& at, const Files& files) {
   return std::visit(
       [&](const auto& object) {
         Parts parts;
-        if constexpr (requires { object.build(at, folder); })
-          parts = object.build(at, folder);
+        if constexpr (requires { object.build(at, files); })
+          parts = object.build(at, files);
         else
           parts = object.build(at);
-        if constexpr (requires { object.paint(parts, at, folder); })
-          object.paint(parts, at, folder);
+        if constexpr (requires { object.paint(parts, at, files.folder); })
+          object.paint(parts, at, files.folder);
         object.place(parts, object.name);
         return parts;
       },
@@ -62,7 +62,7 @@ void check_together(const Scene& scene, const Cursor& at) {
 
 }  // namespace
 
-Scene scene_of(const Value& value, const std::filesystem::path& folder) {
+Scene scene_of(const Value& value, const Files& files) {
   const Cursor at(value);
   SceneDocument document;
   read_table(at, document);
@@ -86,7 +86,7 @@ Scene scene_of(const Value& value, const std::filesystem::path& folder) {
         },
         document.lights[i]);
   for (std::size_t i = 0; i < document.objects.size(); ++i)
-    add(parts_of(document.objects[i], at.at_or_here("objects").element(i), folder), scene);
+    add(parts_of(document.objects[i], at.at_or_here("objects").element(i), files), scene);
   check_together(scene, at);
   return scene;
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <vector>
 
 #include "scene/light_documents.h"
@@ -36,8 +35,7 @@ struct SceneDocument {
   }
 };
 
-/// What a document means. Files it names are looked for in `folder`. Throws Error, one line, for
-/// everything that cannot be accepted.
-Scene scene_of(const Value& document, const std::filesystem::path& folder);
+/// What a document means. Throws Error, one line, for everything that cannot be accepted.
+Scene scene_of(const Value& document, const Files& files);
 
 }  // namespace airlight

@@ -8,6 +8,7 @@
 
 #include "scene/cursor.h"
 #include "scene/objects/parts.h"
+#include "scene/required.h"
 
 namespace airlight {
 

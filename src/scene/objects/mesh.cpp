@@ -1,13 +1,12 @@
 #include "scene/objects/mesh.h"
 
 #include "error.h"
-#include "scene/models/model.h"
 
 namespace airlight {
 
-Parts MeshObject::build(const Cursor& at, const std::filesystem::path& folder) const {
+Parts MeshObject::build(const Cursor& at, const Files& files) const {
   try {
-    Model model = load_model(folder / *file);
+    Model model = files.model(files.folder / *file);
     return {std::move(model.objects), std::move(model.textures), std::move(model.remarks)};
   } catch (const Error& error) {
     at.at_or_here("file").complain(std::string("names a model that is not to be had: ") +

@@ -1,6 +1,6 @@
 #pragma once
+#include "scene/objects/files.h"
 #include "scene/objects/keys.h"
-#include "scene/required.h"
 
 namespace airlight {
 
@@ -21,7 +21,7 @@ struct MeshObject : SurfacedObject {
   }
 
   /// Throws Error if the file cannot be read or is broken.
-  Parts build(const Cursor& at, const std::filesystem::path& folder) const;
+  Parts build(const Cursor& at, const Files& files) const;
 };
 
 }  // namespace airlight
