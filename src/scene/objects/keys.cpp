@@ -30,8 +30,10 @@ void PlacedObject::place(Parts& parts, const char* kind) const {
   const auto moved = [&](Vec3<double> p) { return translate + turn(p * scale); };
   const bool stays = scale == 1 && rotate == Vec3<double>() && translate == Vec3<double>();
   for (Object& object : parts.objects) {
-    const std::string whole = label.empty() ? kind : label;
-    object.name = object.name.empty() ? whole : whole + "." + object.name;
+    if (object.name.empty())
+      object.name = label.empty() ? kind : label;
+    else if (!label.empty())
+      object.name = label + "." + object.name;
     if (stays) continue;
     if (auto* sphere = std::get_if<Sphere>(&object.geometry)) {
       sphere->centre = moved(sphere->centre);

@@ -1,0 +1,181 @@
+#include "scene/stand_in.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/direction.h"
+#include "scene/look_around.h"
+
+namespace airlight {
+namespace {
+
+using Vec = Vec3<double>;
+
+/// Where the sun stands, in degrees as in a scene file.
+struct Sun {
+  double azimuth, elevation;
+};
+
+/// What to make of a model that says nothing.
+struct View {
+  bool is_room;
+  Camera camera;
+  Sun sun;
+  Bounds fog;
+};
+
+std::string text(Vec v) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z); }
+
+Vec at(const Bounds& box, double x, double y, double z) {
+  const Vec size = box.size();
+  return box.min + Vec{size.x * x, size.y * y, size.z * z};
+}
+
+/// What encloses a point inside a room: between the 5th and the 95th percentile of what is seen, so
+/// that a view out of a window does not count.
+Bounds room_around(const Panorama& panorama, const Bounds& all) {
+  std::vector<double> x, y, z;
+  for (std::size_t i = 0; i < Panorama::directions; ++i) {
+    if (panorama.distance[i] >= float(far_away)) continue;
+    const Vec p = panorama.from + Panorama::direction(i) * double(panorama.distance[i]);
+    x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  }
+  const auto range = [](std::vector<double>& values, double& low, double& high) {
+    std::ranges::sort(values);
+    low = values[values.size() / 20];
+    high = values[values.size() - 1 - values.size() / 20];
+  };
+  Bounds room;
+  range(x, room.min.x, room.max.x);
+  range(y, room.min.y, room.max.y);
+  range(z, room.min.z, room.max.z);
+  const Vec margin = room.size() * 0.05;
+  room = {room.min - margin, room.max + margin};
+  const auto inside = [](double v, double low, double high) { return std::clamp(v, low, high); };
+  for (Vec* corner : {&room.min, &room.max})
+    *corner = {inside(corner->x, all.min.x, all.max.x), inside(corner->y, all.min.y, all.max.y),
+               inside(corner->z, all.min.z, all.max.z)};
+  return room;
+}
+
+/// The direction in the sky that is seen from most points, low enough to come in obliquely.
+Sun sun_in_the_windows(const std::vector<Panorama>& panoramas) {
+  const double lowest = std::sin(15 * pi / 180), highest = std::sin(50 * pi / 180);
+  double most = 0;
+  Vec best = toward_sky(60, 35);
+  for (std::size_t i = 0; i < Panorama::directions; ++i) {
+    const Vec d = Panorama::direction(i);
+    if (d.y < lowest || d.y > highest) continue;
+    double seen = 0;
+    for (const Panorama& panorama : panoramas) seen += panorama.distance[i] >= float(far_away);
+    if (seen <= most) continue;
+    most = seen;
+    best = d;
+  }
+  return {std::atan2(best.x, -best.z) * 180 / pi, std::asin(best.y) * 180 / pi};
+}
+
+/// From one of eight places along the walls, with a free view across, against the light if
+/// possible.
+View inside_view(const Model& model, const Bounds& room) {
+  std::vector<Vec> places;
+  for (const double x : {0.1, 0.5, 0.9})
+    for (const double z : {0.1, 0.5, 0.9})
+      if (x != 0.5 || z != 0.5) places.push_back(at(room, x, 0.5, z));
+  const std::vector<Panorama> panoramas = look_around(model.objects, places);
+  View view{true, {}, sun_in_the_windows(panoramas), room};
+  const Vec sun = toward_sky(view.sun.azimuth, 0);
+  const Vec target = at(room, 0.5, 0.42, 0.5);
+  view.camera = {places[0], target, {0, 1, 0}, 55};
+  double best = -1;
+  for (const Panorama& panorama : panoramas) {
+    const Vec to = target - panorama.from;
+    const double against_light = 1 + 0.4 * dot(to, sun) / length(to);
+    const double score = panorama.free_way(to * 2.0) * against_light * (1 - panorama.inside_out());
+    if (score <= best) continue;
+    best = score;
+    view.camera.position = panorama.from;
+  }
+  return view;
+}
+
+/// From outside and above, the sun to the side and a little behind, as shafts like it.
+View outside_view(const Bounds& bounds) {
+  constexpr double azimuth = 25, elevation = 15, fov = 40;
+  const double radius = std::max(0.5 * length(bounds.size()), 1e-3);
+  const Vec centre = bounds.centre();
+  const double distance = 1.15 * radius / std::sin(0.5 * fov * pi / 180);
+  const Vec margin = Vec{1, 1, 1} * (0.25 * radius);
+  const Camera camera{
+      centre + toward_sky(180 - azimuth, elevation) * distance, centre, {0, 1, 0}, fov};
+  return {false, camera, {-65, 35}, {bounds.min - margin, bounds.max + margin}};
+}
+
+/// A room shows the front of its surfaces all around to someone in its middle.
+View view_of(const Model& model) {
+  const Bounds bounds = bounds_of(model.objects);
+  const Panorama middle = look_around(model.objects, {bounds.centre()})[0];
+  if (middle.enclosed() < 0.7) return outside_view(bounds);
+  return inside_view(model, room_around(middle, bounds));
+}
+
+std::string camera_table(const Camera& camera) {
+  return fmt::format("[camera]\nposition = {}\ntarget = {}\nup = {}\nfov = {:.6g}\n",
+                     text(camera.position), text(camera.target), text(camera.up), camera.fov);
+}
+
+std::string light_table(const Directional& light) {
+  const auto& [r, g, b] = light.irradiance;
+  const Vec d = light.direction;
+  return fmt::format(
+      "[[lights]]\ntype = \"directional\"\nirradiance = [{}, {}, {}]\ndirection = [{}, {}, {}]\n"
+      "angular_diameter = {}\n",
+      r, g, b, d.x, d.y, d.z, light.angular_diameter);
+}
+
+std::string sun_table(const Sun& sun) {
+  return fmt::format(
+      "[[lights]]\ntype = \"directional\"\nirradiance = [22, 19, 15]\nazimuth = {:.0f}\n"
+      "elevation = {:.0f}\nangular_diameter = 0.53\n",
+      sun.azimuth, sun.elevation);
+}
+
+/// Fog that dims by about half across the box.
+std::string fog_table(const Bounds& box) {
+  return fmt::format(
+      "[[media]]\nalbedo = 0.97\nsigma_t = {:.3g}\nphase = {{type = \"henyey-greenstein\", g = "
+      "0.4}}\nshape = {{type = \"box\", min = {}, max = {}}}\n",
+      0.8 / length(box.size()), text(box.min), text(box.max));
+}
+
+}  // namespace
+
+StandIn stand_in_for(const Model& model, const std::string& file) {
+  const View view = view_of(model);
+  StandIn result;
+  std::vector<std::string> assumed;
+  result.toml = "background = [0.9, 1.05, 1.3]\nambient = [0.2, 0.21, 0.24]\n";
+  if (model.camera) {
+    result.toml += camera_table(*model.camera);
+  } else {
+    result.toml += camera_table(view.camera);
+    assumed.push_back(fmt::format("a camera {} at {}", view.is_room ? "in the room" : "outside",
+                                  text(view.camera.position)));
+  }
+  if (model.lights.empty()) {
+    result.toml += sun_table(view.sun);
+    assumed.push_back(fmt::format("a sun at azimuth {:.0f}, elevation {:.0f}", view.sun.azimuth,
+                                  view.sun.elevation));
+  }
+  for (const Lights& light : model.lights)
+    result.toml += std::visit([](const auto& l) { return light_table(l); }, light);
+  result.toml += fog_table(view.fog);
+  assumed.push_back(fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max)));
+  result.toml += fmt::format("[[objects]]\ntype = \"mesh\"\nfile = '''{}'''\n", file);
+  result.assumed =
+      fmt::format("assumed: {}, light of the sky; -D changes all of it", fmt::join(assumed, ", "));
+  return result;
+}
+
+}  // namespace airlight
