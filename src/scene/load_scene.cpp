@@ -19,12 +19,10 @@ Scene scene_of(Value document, const Files& files, const std::vector<Override>& 
 Scene scene_around(const std::filesystem::path& path, const std::vector<Override>& overrides) {
   Model model = load_model(path);
   const StandIn stand_in = stand_in_for(model, path.filename().string());
-  std::vector<std::string> told = model.remarks;
-  told.push_back(stand_in.assumed);
   Files files{path.parent_path()};
   files.model = [&](const std::filesystem::path&) { return std::move(model); };
   Scene scene = scene_of(parse_document(stand_in.toml, path.string()), files, overrides);
-  scene.assumptions.insert(scene.assumptions.begin(), told.begin(), told.end());
+  scene.assumptions.push_back(stand_in.assumed);
   return scene;
 }
 
