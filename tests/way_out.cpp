@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <utility>
+
 #include "support/exact_way.h"
 #include "support/quadrature.h"
 #include "support/rays_in_a_box.h"
@@ -88,16 +90,8 @@ double relative_error(const Answer& answer, Exact sigma, const ExactWay& truth) 
 }
 
 /// Numbers as a float holds them.
-Case narrowed(Case c) {
-  const auto narrow = [](double x) {
-    const volatile float narrower = float(x);  // gcc 12 forgets the way there and back if it may
-    return double(narrower);
-  };
-  const auto narrow3 = [&](const Vec3<double>& v) {
-    return Vec3<double>(narrow(v.x), narrow(v.y), narrow(v.z));
-  };
-  return {{narrow3(c.ray.o), narrow3(c.ray.d), narrow3(c.ray.w), narrow(c.ray.t_max)},
-          narrow(c.sigma)};
+Case narrowed(const Case& c, const test::Body& body = test::box_body()) {
+  return {test::narrowed(c.ray, body), test::narrowed(c.sigma)};
 }
 
 std::vector<Case> narrowed(std::vector<Case> all) {
@@ -405,12 +399,12 @@ TEST(WayOutOfAPolyhedron, holds_the_integral_of_transmittance) {
       face.h = float(face.h - dot(face.n, convex.centre));
       face.n = Vec3<double>(float(face.n.x), float(face.n.y), float(face.n.z));
     }
-    for (Case& c : all) {
-      c.ray.o = c.ray.o - convex.centre;
-      c = narrowed(c);
-    }
-    convex.centre = {};
+    const Vec3<double> centre = std::exchange(convex.centre, {});
     body = body_of(convex);
+    for (Case& c : all) {
+      c.ray.o = c.ray.o - centre;
+      c = narrowed(c, body);
+    }
     const std::vector<Answer> one = answers<float>(convex.space(), all);
     check(one, in_float);
     const std::vector<Answer> many = answers<FloatBatch>(convex.space(), all);

@@ -53,7 +53,24 @@ struct BoxRay {
   }
 };
 
+/// Numbers as a float holds them.
+inline double narrowed(double x) {
+  const volatile float narrower = float(x);  // gcc 12 forgets the way there and back if it may
+  return double(narrower);
+}
+inline Vec3<double> narrowed(const Vec3<double>& v) {
+  return {narrowed(v.x), narrowed(v.y), narrowed(v.z)};
+}
+
 inline Point point(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+
+/// The ray as floats hold it, ending where it leaves the body if not before.
+inline BoxRay narrowed(const BoxRay& ray, const Body& body = box_body()) {
+  BoxRay narrow = {narrowed(ray.o), narrowed(ray.d), narrowed(ray.w), 0};
+  const Exact exit = exact_distance_out(body, point(narrow.o), point(narrow.d));
+  narrow.t_max = narrowed(std::min(ray.t_max, double(exit) * (1 - 0x1p-23)));
+  return narrow;
+}
 
 inline ExactWay exact(const BoxRay& ray, Exact parallel_below = 0) {
   return {box_body(), point(ray.o), point(ray.d), point(ray.w), ray.t_max, parallel_below};
@@ -164,14 +181,12 @@ inline BoxRay ray_of(Kind kind, Random& random) {
       break;
     }
   }
-  Exact enter = 0, exit = 1e9;
-  for (const HalfSpace& face : box_body()) {
-    const Exact facing = dot(face.n, point(ray.d)), above = face.h - dot(face.n, point(ray.o));
-    if (facing > 0) exit = std::min(exit, above / facing);
-    if (facing < 0) enter = std::max(enter, above / facing);
-  }
+  Exact enter = 0;
+  for (const HalfSpace& face : box_body())
+    if (const Exact facing = dot(face.n, point(ray.d)); facing < 0)
+      enter = std::max(enter, (face.h - dot(face.n, point(ray.o))) / facing);
   ray.o = ray.o + ray.d * double(enter);
-  ray.t_max = double(std::max<Exact>(exit - enter, 0));
+  ray.t_max = double(exact_distance_out(box_body(), point(ray.o), point(ray.d)));
   if (random.below(2) == 0) ray.t_max *= random.uniform();  // a surface before the exit
   return ray;
 }
