@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -361,7 +362,7 @@ TEST(ReadImage, survives_broken_files) {
   std::mt19937 random(1);
   int refused = 0;
   const auto try_to_read = [&](const std::string& bytes) {
-    write_text(folder / "broken", bytes);
+    std::ofstream(folder / "broken", std::ios::binary) << bytes;
     try {
       read_metadata(folder / "broken");
       EXPECT_EQ(read_image(folder / "broken").channels, 3);

@@ -6,12 +6,13 @@
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <fmt/format.h>
 #include <half.h>
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
+#include <thread>
 
 #include "error.h"
 #include "image/atomic_file.h"
@@ -20,7 +21,7 @@
 namespace airlight {
 namespace {
 
-constexpr int rows_at_once = 16;  // ZIP compresses so many scan lines together
+constexpr int zip_rows = 16;  // ZIP compresses so many scan lines together
 
 class Stream : public Imf::OStream {
  public:
@@ -64,7 +65,7 @@ struct Block {
   Imf::PixelType type;
   std::vector<std::string> names;  // of the channels, as in the file
   std::size_t row_bytes;
-  std::vector<char> rows;
+  std::vector<char> rows;  // empty until their number is known
 };
 
 std::vector<Block> blocks_of(const Picture& picture, ExrType exr_type) {
@@ -75,9 +76,22 @@ std::vector<Block> blocks_of(const Picture& picture, ExrType exr_type) {
     std::vector<std::string> names;
     for (const std::string& channel : layer.channels) names.push_back(prefix + channel);
     const std::size_t row_bytes = std::size_t(picture.width) * names.size() * size_of(type);
-    blocks.push_back({layer, type, names, row_bytes, std::vector<char>(row_bytes * rows_at_once)});
+    blocks.push_back({layer, type, names, row_bytes, {}});
   }
   return blocks;
+}
+
+/// Threads to compress with: as many as the machine has, but at most 32 MB of buffers. A thread
+/// takes 16 rows here and, inside the library, two line buffers of 16 rows with two copies of each
+/// for the compression.
+int compression_threads(const std::vector<Block>& blocks) {
+  std::size_t row_bytes = 0;
+  for (const Block& block : blocks) row_bytes += block.row_bytes;
+  const std::size_t affordable = (std::size_t{32} << 20) / (row_bytes * zip_rows * 7);
+  const int threads = int(
+      std::clamp<std::size_t>(affordable, 1, std::max(1U, std::thread::hardware_concurrency())));
+  if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+  return threads;
 }
 
 void add_metadata(Imf::Header& header, const std::string& key, const MetadataValue& value) {
@@ -107,9 +121,10 @@ Imf::Header header_of(const Picture& picture, const std::vector<Block>& blocks) 
   return header;
 }
 
-void write_rows(Imf::OutputFile& out, std::vector<Block>& blocks, const Picture& picture,
-                const std::filesystem::path& path) {
+void write_rows(Imf::OutputFile& out, std::vector<Block>& blocks, int rows_at_once,
+                const Picture& picture, const std::filesystem::path& path) {
   const Imath::V2i corner = out.header().dataWindow().min;
+  for (Block& block : blocks) block.rows.resize(block.row_bytes * std::size_t(rows_at_once));
   std::vector<float> row;
   for (int first = 0; first < picture.height; first += rows_at_once) {
     const int count = std::min(rows_at_once, picture.height - first);
@@ -139,8 +154,9 @@ void write_exr(const std::filesystem::path& path, const Picture& picture, ExrTyp
   try {
     std::vector<Block> blocks = blocks_of(picture, type);
     Stream stream(file, path.string());
-    Imf::OutputFile out(stream, header_of(picture, blocks), 0);
-    write_rows(out, blocks, picture, path);
+    const int threads = compression_threads(blocks);
+    Imf::OutputFile out(stream, header_of(picture, blocks), threads);
+    write_rows(out, blocks, threads * zip_rows, picture, path);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {  // the library's own

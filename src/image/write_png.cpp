@@ -96,6 +96,7 @@ void write_png(const std::filesystem::path& path, const Picture& picture, const 
   encoder([&](png_structp png, png_infop info) {
     png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(png, 4);  // as small as libpng's 6, twice as fast
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   });
   write_text_chunks(encoder, picture);
