@@ -73,10 +73,24 @@ Image one_row(std::vector<float> values) {
   return image;
 }
 
-/// The 8 bit codes of a PNG by another decoder than ours, libpng.
-std::vector<std::uint8_t> codes_in(const std::filesystem::path& path) {
+/// The 8 bit codes of a PNG, alpha left out.
+std::vector<int> codes_in(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path);
-  return decode_codes({bytes, path.string()}, 3).values;
+  const std::string name = path.string();
+  std::vector<int> codes;
+  const std::vector<std::uint8_t> rgba = decode_codes({bytes, name}).rgba;
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    if (i % 4 != 3) codes.push_back(rgba[i]);
+  return codes;
+}
+
+/// A PNG of one pixel in any of libpng's formats.
+void write_pixel(png_uint_32 format, const void* codes, const std::filesystem::path& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = header.height = 1;
+  header.format = format;
+  ASSERT_TRUE(png_image_write_to_file(&header, path.c_str(), 0, codes, 0, nullptr));
 }
 
 class EveryFormat : public testing::TestWithParam<const char*> {};
@@ -274,26 +288,36 @@ TEST(Png, keeps_metadata) {
 
 TEST(Png, is_read_in_16_bit_and_over_black) {
   const ScratchFolder folder;
-  const auto write = [&](png_uint_32 format, const void* codes, const char* name) {
-    png_image header{};
-    header.version = PNG_IMAGE_VERSION;
-    header.width = header.height = 1;
-    header.format = format;
-    ASSERT_TRUE(png_image_write_to_file(&header, (folder / name).c_str(), 0, codes, 0, nullptr));
-  };
   const png_uint_16 wide[] = {65535, 32768, 1000};
-  write(PNG_FORMAT_LINEAR_RGB, wide, "wide.png");
+  write_pixel(PNG_FORMAT_LINEAR_RGB, wide, folder / "wide.png");
   const Image linear = read_image(folder / "wide.png");
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(linear.at(0, 0, c), wide[c] / 65535.0, 1 / 65535.0);
 
   const std::uint8_t clear[] = {200, 100, 255, 0};
-  write(PNG_FORMAT_RGBA, clear, "clear.png");
+  write_pixel(PNG_FORMAT_RGBA, clear, folder / "clear.png");
   EXPECT_THAT(read_image(folder / "clear.png").pixels, ElementsAre(0, 0, 0));
 
   const std::uint8_t grey[] = {128};
-  write(PNG_FORMAT_GRAY, grey, "grey.png");
+  write_pixel(PNG_FORMAT_GRAY, grey, folder / "grey.png");
   const float value = linear_of_srgb[128];
   EXPECT_THAT(read_image(folder / "grey.png").pixels, ElementsAre(value, value, value));
+}
+
+TEST(Codes, are_those_of_the_file) {
+  const ScratchFolder folder;
+  const auto codes_of = [&](png_uint_32 format, const void* codes) {
+    write_pixel(format, codes, folder / "a.png");
+    const std::vector<std::byte> bytes = read_file(folder / "a.png");
+    const std::string name = "a.png";
+    return decode_codes({bytes, name}).rgba;
+  };
+  const std::uint8_t codes[] = {200, 100, 255, 7};
+  EXPECT_THAT(codes_of(PNG_FORMAT_RGBA, codes), ElementsAre(200, 100, 255, 7));
+  EXPECT_THAT(codes_of(PNG_FORMAT_RGB, codes), ElementsAre(200, 100, 255, 255));
+  EXPECT_THAT(codes_of(PNG_FORMAT_GA, codes), ElementsAre(200, 200, 200, 100));
+  const png_uint_16 wide[] = {65535, 257 * 128,
+                              0};  // linear light, so says its gAMA chunk: not heeded
+  EXPECT_THAT(codes_of(PNG_FORMAT_LINEAR_RGB, wide), ElementsAre(255, 128, 0, 255));
 }
 
 TEST(ReadImage, takes_what_others_write) {
@@ -312,6 +336,9 @@ TEST(ReadImage, takes_what_others_write) {
   const std::vector<std::uint8_t> grey(3 * 64, 128);
   ASSERT_TRUE(stbi_write_jpg((folder / "a.jpg").c_str(), 8, 8, 3, grey.data(), 100));
   EXPECT_EQ(read_image(folder / "a.jpg").at(3, 3, 1), linear_of_srgb[128]);
+  const std::vector<std::uint8_t> bytes(64, 50);
+  ASSERT_TRUE(stbi_write_jpg((folder / "grey.jpg").c_str(), 8, 8, 1, bytes.data(), 100));
+  EXPECT_EQ(read_image(folder / "grey.jpg").at(7, 0, 2), linear_of_srgb[50]);
 
   const float light[] = {1, 0.5F, 0, 16, 8, 4};  // exact in RGBE
   ASSERT_TRUE(stbi_write_hdr((folder / "a.hdr").c_str(), 2, 1, 3, light));

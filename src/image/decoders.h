@@ -17,6 +17,7 @@ struct Encoded {
   const std::string& name;
 
   bool starts_with(std::string_view magic) const;
+  bool is_png() const;
 };
 
 /// "name: cannot be read: reason".
@@ -36,14 +37,16 @@ Image decode_hdr(const Encoded& encoded);  ///< Radiance
 std::map<std::string, std::string> exr_metadata(const Encoded& encoded);
 std::map<std::string, std::string> png_metadata(const Encoded& encoded);
 
-/// 8 bit codes as they stand in a PNG, JPG, BMP or TGA file: no colour space is applied.
+/// 8 bit codes as they stand in the file: no colour space is applied.
 struct Codes {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> values;  ///< interleaved, row 0 on top
+  std::vector<std::uint8_t> rgba;  ///< four bytes a pixel, row 0 on top
 };
 
-/// `channels`: 3 for RGB, 4 for RGBA, whatever the file has.
-Codes decode_codes(const Encoded& encoded, int channels);
+Codes decode_codes(const Encoded& encoded);  ///< any of the three below
+Codes png_codes(const Encoded& encoded);
+Codes jpeg_codes(const Encoded& encoded);
+Codes stb_codes(const Encoded& encoded);  ///< BMP and TGA
 
 }  // namespace airlight

@@ -1,7 +1,5 @@
 #include "image/input.h"
 
-#include <algorithm>
-
 #include "image/decoders.h"
 #include "image/read_file.h"
 #include "image/srgb.h"
@@ -10,12 +8,11 @@ namespace airlight {
 namespace {
 
 constexpr std::string_view exr_magic = "\x76\x2f\x31\x01";
-constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 
 Image linear(const Codes& codes) {
   Image image(codes.width, codes.height, 3);
-  std::ranges::transform(codes.values, image.pixels.begin(),
-                         [](std::uint8_t code) { return linear_of_srgb[code]; });
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = linear_of_srgb[codes.rgba[i / 3 * 4 + i % 3]];
   return image;
 }
 
@@ -28,9 +25,9 @@ Image read_image(const std::filesystem::path& path, const std::string& layer) {
   if (encoded.starts_with(exr_magic)) return decode_exr(encoded, layer);
   if (!layer.empty()) fail_to_decode(encoded, "only EXR files have a layer \"" + layer + "\"");
   if (encoded.starts_with("PF") || encoded.starts_with("Pf")) return decode_pfm(encoded);
-  if (encoded.starts_with(png_magic)) return decode_png(encoded);
+  if (encoded.is_png()) return decode_png(encoded);
   if (encoded.starts_with("#?")) return decode_hdr(encoded);
-  return linear(decode_codes(encoded, 3));
+  return linear(decode_codes(encoded));
 }
 
 std::map<std::string, std::string> read_metadata(const std::filesystem::path& path) {
@@ -38,7 +35,7 @@ std::map<std::string, std::string> read_metadata(const std::filesystem::path& pa
   const std::string name = path.string();
   const Encoded encoded{bytes, name};
   if (encoded.starts_with(exr_magic)) return exr_metadata(encoded);
-  if (encoded.starts_with(png_magic)) return png_metadata(encoded);
+  if (encoded.is_png()) return png_metadata(encoded);
   return {};
 }
 

@@ -54,6 +54,18 @@ struct Decoder {
     png_read_info(png, info);
     return true;
   }
+
+  /// Rows of 8 bit RGBA, whatever the file has; after `read_info`.
+  bool read_rgba(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+    png_set_interlace_handling(png);
+    png_read_image(png, rows);
+    return true;
+  }
 };
 
 }  // namespace
@@ -88,6 +100,21 @@ Image decode_png(const Encoded& encoded) {
   else
     read([](std::uint8_t code) { return linear_of_srgb[code]; }, std::uint8_t{});
   return image;
+}
+
+Codes png_codes(const Encoded& encoded) {
+  Source source{encoded.bytes, ""};
+  Decoder decoder(source);
+  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  const auto width = png_get_image_width(decoder.png, decoder.info);
+  const auto height = png_get_image_height(decoder.png, decoder.info);
+  check_size(encoded, width, height);
+  Codes codes{int(width), int(height), {}};
+  codes.rgba.resize(std::size_t(width) * height * 4);
+  std::vector<png_bytep> rows(height);
+  for (std::size_t y = 0; y < height; ++y) rows[y] = codes.rgba.data() + y * width * 4;
+  if (!decoder.read_rgba(rows.data())) fail_to_decode(encoded, source.error);
+  return codes;
 }
 
 std::map<std::string, std::string> png_metadata(const Encoded& encoded) {

@@ -1,4 +1,5 @@
-// Debian's stb_image for the formats that have no library here. Its functions stay in this file.
+// Debian's stb_image for BMP and TGA, which have no library here. Its other decoders are left out:
+// broken JPG and HDR files lead the version of 2022 out of its tables or into endless loops.
 #include <climits>
 #include <memory>
 
@@ -7,8 +8,6 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STBI_NO_STDIO
-#define STBI_ONLY_JPEG
-#define STBI_ONLY_PNG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STB_IMAGE_STATIC
@@ -18,7 +17,7 @@
 
 namespace airlight {
 
-Codes decode_codes(const Encoded& encoded, int channels) {
+Codes stb_codes(const Encoded& encoded) {
   if (encoded.bytes.size() > std::size_t{INT_MAX})
     fail_to_decode(encoded, "it is longer than 2 GiB");
   const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.bytes.data());
@@ -31,9 +30,9 @@ Codes decode_codes(const Encoded& encoded, int channels) {
                    std::string("it is no picture of a known format: ") + stbi_failure_reason());
   check_size(encoded, width, height);
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> first(
-      stbi_load_from_memory(bytes, size, &width, &height, &kept, channels), stbi_image_free);
+      stbi_load_from_memory(bytes, size, &width, &height, &kept, 4), stbi_image_free);
   if (first == nullptr) fail_to_decode(encoded, stbi_failure_reason());
-  const std::size_t count = std::size_t(width) * std::size_t(height) * std::size_t(channels);
+  const std::size_t count = std::size_t(width) * std::size_t(height) * 4;
   return {width, height, {first.get(), first.get() + count}};
 }
 

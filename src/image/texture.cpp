@@ -63,11 +63,11 @@ Texture load_texture(const std::filesystem::path& path) {
 }
 
 Texture decode_texture(std::span<const std::byte> encoded, const std::string& name) {
-  Codes codes = decode_codes({encoded, name}, 4);
+  Codes codes = decode_codes({encoded, name});
   Texture texture;
   texture.width = codes.width;
   texture.height = codes.height;
-  texture.rgba = std::move(codes.values);
+  texture.rgba = std::move(codes.rgba);
   return texture;
 }
 
