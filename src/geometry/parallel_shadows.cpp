@@ -1,0 +1,130 @@
+#include "parallel_shadows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "error.h"
+#include "scene/scene.h"
+#include "surface_filter.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr Interval<double> nothing{far_away, -far_away};
+constexpr Interval<double> everything{-far_away, far_away};
+
+/// Where the point q + t d, which moves along a line, is not further than `radius` from the origin.
+Interval<double> within(Vec3<double> q, Vec3<double> d, double radius) {
+  const double speed2 = dot(d, d);
+  // A point that all but stands still is where it is (the sine to the axis is below 1e-12).
+  if (speed2 < 1e-24) return dot(q, q) < radius * radius ? everything : nothing;
+  const double middle = -dot(q, d) / speed2;
+  const Vec3<double> off = q + d * middle;
+  const double half2 = (radius * radius - dot(off, off)) / speed2;
+  if (!(half2 > 0)) return nothing;
+  return {middle - sqrt(half2), middle + sqrt(half2)};
+}
+
+/// Where a + b t >= 0.
+Interval<double> at_least_zero(double a, double b) {
+  if (b == 0) return a >= 0 ? everything : nothing;
+  return b > 0 ? Interval<double>{-a / b, far_away} : Interval<double>{-far_away, -a / b};
+}
+
+bool empty(Interval<double> i) { return !(i.t_enter < i.t_exit); }
+
+Interval<double> both(Interval<double> a, Interval<double> b) {
+  return {max(a.t_enter, b.t_enter), min(a.t_exit, b.t_exit)};
+}
+
+/// Of two intervals that make up one, or of which one is empty.
+Interval<double> either(Interval<double> a, Interval<double> b) {
+  if (empty(a)) return b;
+  if (empty(b)) return a;
+  return {min(a.t_enter, b.t_enter), max(a.t_exit, b.t_exit)};
+}
+
+}  // namespace
+
+ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel) : travel_(travel) {
+  for (const Object& object : scene.objects) {
+    const SurfaceFilter surface(scene, object);
+    if (surface.is_clear()) continue;
+    if (!surface.is_opaque())
+      throw Error(fmt::format(
+          "object \"{}\" lets light through; exact shadows are known of opaque objects only",
+          object.name));
+    if (const auto* sphere = std::get_if<Sphere>(&object.geometry)) {
+      balls_.push_back({sphere->centre, sphere->radius});
+      continue;
+    }
+    const Mesh& mesh = std::get<Mesh>(object.geometry);
+    for (const auto& [a, b, c] : mesh.triangles)
+      add({Vec3<double>(mesh.positions[a]), Vec3<double>(mesh.positions[b]),
+           Vec3<double>(mesh.positions[c])});
+  }
+}
+
+void ParallelShadows::add(const Vec3<double> (&corners)[3]) {
+  const auto& [a, b, c] = corners;
+  const Vec3<double> normal = cross(b - a, c - a);
+  const double facing = dot(normal, travel_);
+  if (facing == 0) return;  // seen edge on, or no triangle at all: it shades nothing
+  const Vec3<double> behind = facing > 0 ? normal : -normal;
+  Prism prism;
+  prism.faces[0] = {behind, dot(behind, a)};
+  for (int i = 0; i < 3; ++i) {
+    // The side is found from the lower end of the edge to the upper one, so that the prisms of
+    // triangles that share the edge touch without a gap.
+    Vec3<double> low = corners[i], high = corners[(i + 1) % 3];
+    if (std::tie(high.x, high.y, high.z) < std::tie(low.x, low.y, low.z)) std::swap(low, high);
+    const Vec3<double> side = cross(high - low, travel_);
+    const double offset = dot(side, low);
+    const bool inward = dot(side, corners[(i + 2) % 3]) > offset;
+    prism.faces[1 + i] = {inward ? side : -side, inward ? offset : -offset};
+  }
+  prisms_.push_back(prism);
+}
+
+Interval<double> ParallelShadows::shaded(const Prism& prism, Vec3<double> origin,
+                                         Vec3<double> direction) {
+  Interval<double> result = everything;
+  for (const auto& [normal, offset] : prism.faces)
+    result = both(result, at_least_zero(dot(normal, origin) - offset, dot(normal, direction)));
+  return result;
+}
+
+Interval<double> ParallelShadows::shaded(const Ball& ball, Vec3<double> origin,
+                                         Vec3<double> direction) const {
+  const Vec3<double> q = origin - ball.centre;
+  const double q_along = dot(q, travel_), d_along = dot(direction, travel_);
+  const Interval<double> cylinder =
+      within(q - travel_ * q_along, direction - travel_ * d_along, ball.radius);
+  return either(both(cylinder, at_least_zero(q_along, d_along)), within(q, direction, ball.radius));
+}
+
+std::vector<Interval<double>> ParallelShadows::lit(Vec3<double> origin, Vec3<double> direction,
+                                                   double t_max) const {
+  std::vector<Interval<double>> shadows;
+  const auto shade = [&](Interval<double> shadow) {
+    const Interval<double> part = both(shadow, {0, t_max});
+    if (!empty(part)) shadows.push_back(part);
+  };
+  for (const Prism& prism : prisms_) shade(shaded(prism, origin, direction));
+  for (const Ball& ball : balls_) shade(shaded(ball, origin, direction));
+  std::ranges::sort(shadows, {}, &Interval<double>::t_enter);
+
+  std::vector<Interval<double>> parts;
+  double reached = 0;
+  for (const auto& [enter, exit] : shadows) {
+    if (reached < enter) parts.push_back({reached, enter});
+    reached = max(reached, exit);
+  }
+  if (reached < t_max) parts.push_back({reached, t_max});
+  return parts;
+}
+
+}  // namespace airlight

@@ -1,0 +1,46 @@
+#pragma once
+#include <airlight/way_out.h>
+
+#include <vector>
+
+namespace airlight {
+
+struct Scene;
+
+/// The shadows that opaque objects cast in light that travels the same way everywhere, exactly: a
+/// triangle shades the prism behind it, a sphere itself and half a cylinder. A ray meets each of
+/// them in one interval.
+class ParallelShadows {
+ public:
+  /// `travel` is the unit direction in which the light goes. Throws Error if an object lets light
+  /// through.
+  ParallelShadows(const Scene& scene, Vec3<double> travel);
+
+  /// The parts of the ray in [0, t_max] that light reaches, in order, apart from each other.
+  std::vector<Interval<double>> lit(Vec3<double> origin, Vec3<double> direction,
+                                    double t_max) const;
+
+ private:
+  /// normal · p >= offset.
+  struct HalfSpace {
+    Vec3<double> normal;
+    double offset;
+  };
+  struct Prism {
+    HalfSpace faces[4];  ///< of the triangle itself and of the three sides
+  };
+  struct Ball {
+    Vec3<double> centre;
+    double radius;
+  };
+
+  void add(const Vec3<double> (&corners)[3]);
+  static Interval<double> shaded(const Prism& prism, Vec3<double> origin, Vec3<double> direction);
+  Interval<double> shaded(const Ball& ball, Vec3<double> origin, Vec3<double> direction) const;
+
+  Vec3<double> travel_;
+  std::vector<Prism> prisms_;
+  std::vector<Ball> balls_;
+};
+
+}  // namespace airlight

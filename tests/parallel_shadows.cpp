@@ -1,0 +1,166 @@
+// Exact shadows in parallel light against shadow rays in double.
+
+#include "geometry/parallel_shadows.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "error.h"
+#include "geometry/world.h"
+
+namespace airlight {
+namespace {
+
+using ::testing::ElementsAre;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : generator_(seed) {}
+  double operator()(double low = 0, double high = 1) {
+    return std::uniform_real_distribution<double>(low, high)(generator_);
+  }
+  Vec3<double> point(double half) {
+    return {(*this)(-half, half), (*this)(-half, half), (*this)(-half, half)};
+  }
+  Vec3<double> direction() {
+    for (;;) {
+      const Vec3<double> v = point(1);
+      if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
+    }
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+Object ball(Vec3<double> centre, double radius) { return {"ball", Sphere{centre, radius}, {}}; }
+
+/// A tetrahedron, closed or (now and then) with a face missing.
+Object tetrahedron(Random& random) {
+  Mesh mesh;
+  const Vec3<double> centre = random.point(1);
+  for (int i = 0; i < 4; ++i) mesh.positions.push_back(Vec3<float>(centre + random.point(0.5)));
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  if (random() < 0.3) mesh.triangles.pop_back();
+  return {"tetrahedron", mesh, {}};
+}
+
+Scene any_scene(unsigned seed) {
+  Random random(seed);
+  Scene scene;
+  for (int i = 0; i < 4; ++i) {
+    scene.objects.push_back(ball(random.point(1), random(0.05, 0.4)));
+    scene.objects.push_back(tetrahedron(random));
+  }
+  return scene;
+}
+
+TEST(ParallelShadows, agree_with_shadow_rays) {
+  int asked = 0, dark = 0, parts = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Scene scene = any_scene(seed);
+    const World world(scene, Visibility::analytic);
+    Random random(seed + 1000);
+    const Vec3<double> travel = seed % 4 ? random.direction() : Vec3<double>(0, -1, 0);
+    const ParallelShadows shadows(scene, travel);
+    for (int k = 0; k < 100; ++k) {
+      const Vec3<double> origin = random.point(2);
+      // Camera rays along the light are their own case.
+      const Vec3<double> direction = k % 10 == 0   ? travel
+                                     : k % 10 == 1 ? -travel
+                                                   : normalize(random.point(0.7) - origin);
+      const double t_max = random(1, 5);
+      const auto lit = shadows.lit(origin, direction, t_max);
+      std::vector<double> ends = {0, t_max};
+      for (const auto& [from, to] : lit) {
+        ASSERT_LT(from, to);
+        ASSERT_TRUE(ends.size() == 2 || from > ends.back());
+        ends.insert(ends.end(), {from, to});
+      }
+      parts += int(lit.size());
+      std::vector<double> ts;
+      for (int i = 0; i < 100; ++i) ts.push_back(random(0, t_max));
+      // Just inside and outside of every end.
+      for (const double end : ends) ts.insert(ts.end(), {end - 1e-7, end + 1e-7});
+      for (const double t : ts) {
+        if (t < 0 || t > t_max) continue;
+        double nearest = far_away;
+        bool expected = false;
+        for (const auto& [from, to] : lit) expected = expected || (t > from && t < to);
+        for (const double end : ends) nearest = std::min(nearest, std::abs(t - end));
+        if (nearest < 1e-9) continue;
+        const Rgb<double> light =
+            world.transmit(origin + direction * t, -travel, far_away, 0, true);
+        ASSERT_EQ(light.g, expected ? 1 : 0) << seed << ' ' << k << ' ' << t;
+        ++asked;
+        dark += !expected;
+      }
+    }
+  }
+  // The comparison must mean something.
+  EXPECT_GT(asked, 200'000);
+  EXPECT_GT(dark, asked / 20);
+  EXPECT_GT(parts, 2200);
+}
+
+TEST(ParallelShadows, of_a_sphere_is_half_a_cylinder) {
+  Scene scene;
+  scene.objects = {ball({0, 0, 0}, 1)};
+  const ParallelShadows shadows(scene, {0, -1, 0});
+  const auto parts = [&](Vec3<double> origin) {
+    std::vector<std::pair<double, double>> result;
+    for (const auto& [from, to] : shadows.lit(origin, {1, 0, 0}, 10)) result.emplace_back(from, to);
+    return result;
+  };
+  using Pair = std::pair<double, double>;
+  EXPECT_THAT(parts({-3, -2, 0}), ElementsAre(Pair(0, 2), Pair(4, 10)));
+  EXPECT_THAT(parts({-3, 2, 0}), ElementsAre(Pair(0, 10)));
+  // Above the equator the sphere itself is dark inside.
+  EXPECT_THAT(parts({-3, 0.6, 0}), ElementsAre(Pair(0, 3 - 0.8), Pair(3 + 0.8, 10)));
+  EXPECT_THAT(parts({-3, -2, 1.5}), ElementsAre(Pair(0, 10)));
+}
+
+TEST(ParallelShadows, leave_no_gap_where_triangles_meet) {
+  // A ceiling of many triangles over a long ray: one shadow.
+  Random random(4);
+  Mesh mesh;
+  const int n = 30;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      mesh.positions.push_back(
+          {float(i) / n + float(random(0, 0.02)), float(random(1, 1.2)), float(j) / n});
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const auto at = [&](int k, int l) { return std::uint32_t((i + k) * (n + 1) + j + l); };
+      mesh.triangles.push_back({at(0, 0), at(1, 0), at(0, 1)});
+      mesh.triangles.push_back({at(1, 0), at(1, 1), at(0, 1)});
+    }
+  Scene scene;
+  scene.objects = {{"ceiling", mesh, {}}};
+  const ParallelShadows shadows(scene, normalize(Vec3<double>(0.1, -1, 0.03)));
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3<double> from(random(0.3, 0.7), random(0, 0.5), random(0.3, 0.7));
+    const Vec3<double> to(random(0.3, 0.7), random(0, 0.5), random(0.3, 0.7));
+    EXPECT_THAT(shadows.lit(from, to - from, 1), ElementsAre());
+  }
+}
+
+TEST(ParallelShadows, are_refused_for_glass_and_not_cast_by_what_does_nothing) {
+  Scene scene;
+  scene.objects = {ball({0, 0, 0}, 1)};
+  scene.objects[0].material.opacity = 0;
+  EXPECT_EQ(ParallelShadows(scene, {0, -1, 0}).lit({0, -2, 0}, {1, 0, 0}, 1).size(), 1);
+  scene.objects[0].material.opacity = 0.5;
+  try {
+    ParallelShadows(scene, {0, -1, 0});
+    FAIL() << "glass is accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "object \"ball\" lets light through; exact shadows are known of opaque objects only");
+  }
+}
+
+}  // namespace
+}  // namespace airlight
