@@ -1,0 +1,100 @@
+#include "render/summary.h"
+
+#include <gmock/gmock.h>
+
+#include "scene/load_scene.h"
+
+namespace airlight {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// A room of fog 4 m long, seen along it, under an open sky.
+constexpr const char* room = R"(
+[camera]
+position = [0, 0, 1.5]
+target = [0, 0, -1]
+[[media]]
+sigma_s = 0.1
+sigma_a = [0.1, 0.15, 0.3]
+phase = {type = "henyey-greenstein", g = 0.25}
+shape = {type = "box", min = [-1, -1, -2], max = [1, 1, 2]}
+[[lights]]
+type = "directional"
+irradiance = 3
+direction = [0, -1, 0]
+[[objects]]
+type = "box"
+min = [-1, -1, -2]
+max = [1, -0.9, 2]
+)";
+
+Summary summary_with(const std::vector<Override>& changes) {
+  return summarise(parse_scene(room, "room", changes));
+}
+
+TEST(Summary, measures_the_fog) {
+  const Summary s = summary_with({});
+  ASSERT_TRUE(s.medium);
+  EXPECT_DOUBLE_EQ(s.medium->across.value(), 4);
+  EXPECT_DOUBLE_EQ(s.medium->optical_depth.r, 0.8);
+  EXPECT_DOUBLE_EQ(s.medium->optical_depth.b, 1.6);
+  EXPECT_DOUBLE_EQ(s.medium->mean_free_path.r, 5);
+  EXPECT_DOUBLE_EQ(s.medium->mean_free_path.g, 4);
+  EXPECT_DOUBLE_EQ(s.medium->albedo.b, 0.25);
+  EXPECT_EQ(s.medium->phase, "henyey-greenstein, g = 0.25");
+  EXPECT_TRUE(s.medium->camera_inside);
+  EXPECT_DOUBLE_EQ(s.medium->to_target, 2.5);
+  EXPECT_DOUBLE_EQ(s.medium->exit.value(), 3.5);
+}
+
+TEST(Summary, counts) {
+  const Summary s = summary_with({"image.width=100", "image.height=50"});
+  EXPECT_EQ(s.objects, 1u);
+  EXPECT_EQ(s.triangles, 12u);
+  EXPECT_EQ(s.spheres, 0u);
+  EXPECT_DOUBLE_EQ(s.bounds.low.z, -2);
+  EXPECT_NEAR(s.bounds.high.y, -0.9, 1e-7) << "meshes are kept in float";
+  EXPECT_GT(s.memory.geometry, 12u * 12u);
+  EXPECT_EQ(s.memory.film % 5000, 0u);
+}
+
+TEST(Summary, of_a_good_scene_has_no_warnings) {
+  EXPECT_THAT(summary_with({}).warnings, ::testing::IsEmpty());
+}
+
+TEST(Summary, tells_how_much_of_the_fog_is_lit) {
+  EXPECT_DOUBLE_EQ(summary_with({}).lights.at(0).lit_part.value(), 1);
+  // A lid over half of the room.
+  const Summary half = summary_with({"objects.0.min=[-1,1,-2]", "objects.0.max=[0,1.1,2]"});
+  // What the camera sees is symmetric about x = 0, and sampled with a few thousand points.
+  EXPECT_NEAR(half.lights.at(0).lit_part.value(), 0.5, 0.02);
+}
+
+TEST(Summary, warns) {
+  const auto warnings = [](const std::vector<Override>& changes) {
+    return summary_with(changes).warnings;
+  };
+  EXPECT_THAT(warnings({"media.0.sigma_s=15", "media.0.sigma_a=0"}),
+              Contains(StartsWith("fog is opaque after 0.31 m")));
+  EXPECT_THAT(warnings({"camera.position=[0,0,5]"}),
+              Contains(HasSubstr("the camera is outside the fog, which begins 3 m ahead")));
+  EXPECT_THAT(warnings({"camera.position=[0,0,5]", "camera.target=[0,0,9]"}),
+              Contains(HasSubstr("does not look into it")));
+  EXPECT_THAT(warnings({"lights=[]"}), Contains(StartsWith("no light")));
+  EXPECT_THAT(warnings({"lights.0.irradiance=0"}), Contains(StartsWith("lights.0 is black")));
+  EXPECT_THAT(warnings({"media=[]"}), Contains(StartsWith("no medium")));
+  EXPECT_THAT(warnings({"objects=[]"}), Contains(StartsWith("no objects")));
+  EXPECT_THAT(warnings({"media.0.sigma_s=0"}), Contains(HasSubstr("scatters nothing")));
+  EXPECT_THAT(warnings({"ambient=1"}), Contains(StartsWith("ambient lights surfaces only")));
+  EXPECT_THAT(warnings({"objects.0.min=[-2,1,-3]", "objects.0.max=[2,1.1,3]"}),
+              Contains(StartsWith("lights.0 cannot enter")));
+  EXPECT_THAT(warnings({"render.estimator=magic"}), Contains(HasSubstr("magic")));
+}
+
+}  // namespace
+}  // namespace airlight
