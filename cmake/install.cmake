@@ -4,9 +4,32 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/airlight)
 
 install(DIRECTORY include/airlight DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY src/image src/scene src/render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight
-  FILES_MATCHING PATTERN "*.h")
-install(FILES src/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight)
+
+# The rooms' faces, and what these include; the rest of src/ is nobody else's.
+set(public_headers
+  error.h
+  image/atomic_file.h
+  image/image.h
+  image/input.h
+  image/metrics.h
+  image/output.h
+  image/picture.h
+  image/srgb.h
+  image/texture.h
+  image/tone_map.h
+  scene/document.h
+  scene/load_scene.h
+  scene/render_settings.h
+  scene/scene.h
+  render/film.h
+  render/probe.h
+  render/render.h
+  render/version.h
+)
+foreach(header IN LISTS public_headers)
+  cmake_path(GET header PARENT_PATH room)
+  install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight/${room})
+endforeach()
 
 install(TARGETS airlight_core EXPORT airlight-core-targets)
 install(TARGETS airlight EXPORT airlight-targets)

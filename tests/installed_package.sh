@@ -1,7 +1,6 @@
 #!/bin/bash
 # installed_package.sh CMAKE BUILD EXAMPLES WORK [cmake option…]: installs the build into an empty folder of WORK, builds
-# the examples against it with find_package and runs them. Then the same for every header of the core, with nothing but
-# airlight::core: they have to work alone.
+# the examples against it with find_package and runs them, and compiles every installed header by itself.
 set -euo pipefail
 cmake=$1 build=$2 examples=$3 work=$4
 shift 4
@@ -24,20 +23,30 @@ for source in "$examples"/*.cpp; do
   (cd "$examples/.." && "$work/examples/$example")
 done
 
+# Every installed header compiles alone: the core's with nothing but airlight::core.
 cat >"$work/headers/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
-project(core_headers LANGUAGES CXX)
+project(headers LANGUAGES CXX)
 find_package(airlight REQUIRED COMPONENTS core)
 if(TARGET embree OR TARGET airlight::airlight)
   message(FATAL_ERROR "the core must not ask for anything but xsimd")
 endif()
-file(GLOB sources *.cpp)
-add_library(core_headers OBJECT ${sources})
-target_link_libraries(core_headers PRIVATE airlight::core)
+file(GLOB core core/*.cpp)
+add_library(core OBJECT ${core})
+target_link_libraries(core PRIVATE airlight::core)
+target_precompile_headers(core PRIVATE <xsimd/xsimd.hpp>)  # all of them come to it, and it is most of the work
+find_package(airlight REQUIRED)
+file(GLOB rooms rooms/*.cpp)
+add_library(rooms OBJECT ${rooms})
+target_link_libraries(rooms PRIVATE airlight::airlight)
 END
-core=$(cd "${examples}/../include" && find airlight -name '*.h')
-for header in $core; do
-  echo "#include <$header>" >"$work/headers/${header//\//_}.cpp"
-done
+mkdir "$work/headers/core" "$work/headers/rooms"
+count=0
+while read -r header; do
+  kind=rooms
+  [[ -e $examples/../include/$header ]] && kind=core
+  echo "#include <$header>" >"$work/headers/$kind/${header//\//_}.cpp"
+  count=$((count + 1))
+done < <(cd "$work/prefix/include" && find airlight -name '*.h')
 build_with_package "$work/headers" "$work/headers/build" "$@"
-echo "== $(wc -w <<<"$core") headers of the core compile alone"
+echo "== $count headers compile alone"
