@@ -321,6 +321,19 @@ TEST(Render, writes_what_is_done_on_control_c) {
   }
 }
 
+TEST(Render, previews_again_and_again) {
+  const Desk desk;
+  const Beside watcher = {.during = [&](pid_t program) {
+    for (int preview = 0; preview < 4; ++preview) {
+      EXPECT_TRUE(wait_for([&] { return std::filesystem::exists(desk / "a.pfm"); }));
+      EXPECT_EQ(read_image(desk / "a.pfm").width, 64);
+      std::filesystem::remove(desk / "a.pfm");
+    }
+    kill(program, SIGTERM);
+  }};
+  desk.render("a.pfm", with(endless, {"--preview", "0.1"}), watcher);
+}
+
 TEST(Render, previews_without_a_number_of_seconds) {
   const Desk desk;
   const Outcome outcome =

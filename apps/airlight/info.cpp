@@ -68,7 +68,7 @@ void print(const airlight::Scene& scene, const Summary& summary) {
   fmt::print("memory     about {}: geometry {}, textures {}, hierarchy {}, film {}\n",
              bytes(memory.total()), bytes(memory.geometry), bytes(memory.textures),
              bytes(memory.hierarchy), bytes(memory.film));
-  for (const std::string& assumption : scene.assumptions) fmt::print("assumed    {}\n", assumption);
+  for (const std::string& remark : scene.assumptions) fmt::print("remark     {}\n", remark);
   for (const std::string& warning : summary.warnings) fmt::print("warning    {}\n", warning);
 }
 

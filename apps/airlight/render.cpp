@@ -80,7 +80,7 @@ int render(Flags& flags) {
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
   if (!flags.quiet && !scene.assumptions.empty())
-    fmt::print(stderr, "assumed: {}\n", fmt::join(scene.assumptions, "; "));
+    fmt::print(stderr, "{}\n", fmt::join(scene.assumptions, "; "));
 
   const Interrupt interrupt;
   ProgressLine line(!flags.quiet);

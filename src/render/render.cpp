@@ -45,18 +45,12 @@ PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
   return *crop;
 }
 
-/// Where passes end: each doubles what is done, so that their sums stay exact in a film of floats
-/// and a stop loses little.
-std::vector<SampleRange> passes(SampleRange all, bool short_passes) {
-  std::vector<SampleRange> result;
-  std::uint32_t done = 0;
-  while (done < all.count) {
-    const std::uint32_t first = short_passes ? 4 : 64;
-    const std::uint32_t next = std::min(all.count, done == 0 ? first : 2 * done);
-    result.push_back({all.first + done, next - done});
-    done = next;
-  }
-  return result;
+/// How many samples the next pass gives each pixel: as many as it has, so that their sums stay
+/// exact in a film of floats and a stop loses little. Previews come after passes that stay short.
+std::uint32_t next_pass(std::uint32_t asked, std::uint32_t done, const RenderControl& control) {
+  const std::uint32_t first = control.short_passes || control.time_limit > 0 ? 4 : 64;
+  const std::uint32_t longest = control.short_passes ? 64 : asked;
+  return std::min({asked - done, std::max(done, first), longest});
 }
 
 }  // namespace
@@ -136,8 +130,10 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
           std::size_t(settings.threads),
           tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
   tbb::task_arena arena(threads);
-  for (const SampleRange& pass :
-       passes(prepared.samples, control.short_passes || control.time_limit > 0)) {
+  while (result.samples < prepared.samples.count) {
+    const auto done = std::uint32_t(result.samples);
+    const SampleRange pass{prepared.samples.first + done,
+                           next_pass(prepared.samples.count, done, control)};
     arena.execute(
         [&] { tbb::parallel_for(0, columns * rows, [&](int tile) { render_tile(tile, pass); }); });
     if (stopped) break;

@@ -20,7 +20,7 @@ struct Progress {
 struct RenderControl {
   std::optional<PixelRect> crop;  ///< renders this part only
   double time_limit = 0;          ///< stops after this time with what is done; 0: no limit  [s]
-  bool short_passes = false;      ///< begins with few samples a pixel, for previews
+  bool short_passes = false;      ///< of few samples a pixel, so that previews come often
   std::stop_token stop;           ///< stops with what is done
   std::function<void(const Progress&)> on_progress;  ///< called from workers, one at a time
   std::function<void(const Film&, const Progress&)>
