@@ -431,6 +431,13 @@ TEST(Probe, explains_in_words) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
 }
 
+TEST(Probe, explains_one_ray_when_asked) {
+  const Desk desk;
+  const Outcome outcome = run({"probe", desk.scene, "--pixel", "12,8", "--ray", "2"});
+  EXPECT_THAT(outcome.out, HasSubstr("ray 2: "));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("ray 0: ")));
+}
+
 TEST(Probe, plots_a_ray) {
   const Desk desk;
   const Outcome outcome = run({"probe", desk.scene, "--pixel", "12,8", "-o", desk / "ray.svg"});

@@ -16,7 +16,7 @@ struct Flags {
   SceneFlags scene;
   std::string pixel;
   std::filesystem::path plot;
-  std::size_t ray = 0;
+  std::optional<std::size_t> ray;
   bool json = false;
 };
 
@@ -39,8 +39,11 @@ int probe(const Flags& flags) {
   if (plot) airlight::check_writable(flags.plot);
   const airlight::Scene scene = flags.scene.load();
   const airlight::Probe found = airlight::probe(scene, scene.render, int(pixel[0]), int(pixel[1]));
-  if (plot) airlight::write_text(flags.plot, probe_plot(found, flags.ray));
-  fmt::print("{}", flags.json ? probe_json(found, scene) : probe_text(found, scene));
+  if (flags.ray && *flags.ray >= found.rays.size())
+    throw Error(fmt::format("--ray {}: is not there; accepted: 0 to {}, the rays of this pixel",
+                            *flags.ray, found.rays.size() - 1));
+  if (plot) airlight::write_text(flags.plot, probe_plot(found, flags.ray.value_or(0)));
+  fmt::print("{}", flags.json ? probe_json(found, scene) : probe_text(found, scene, flags.ray));
   return 0;
 }
 
@@ -57,7 +60,7 @@ Action set_up_probe(CLI::App& verb) {
   verb.add_option("-o,--output", flags->plot, "plots density, transmittance and lit parts (.svg)")
       ->type_name("FILE")
       ->take_last();
-  verb.add_option("--ray", flags->ray, "the camera ray of the pixel to plot, from 0")
+  verb.add_option("--ray", flags->ray, "the camera ray of the pixel to print and plot, from 0")
       ->type_name("")
       ->take_last();
   verb.add_flag("--json", flags->json, "prints everything as JSON, with 512 steps along each ray");

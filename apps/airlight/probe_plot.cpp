@@ -68,9 +68,6 @@ Plot transmittance(const ProbedLight& light, const Axis& t) {
 }  // namespace
 
 std::string probe_plot(const Probe& probe, std::size_t ray) {
-  if (ray >= probe.rays.size())
-    throw Error(fmt::format("--ray {}: is not there; accepted: 0 to {}, the rays of this pixel",
-                            ray, probe.rays.size() - 1));
   const ProbedRay& shown = probe.rays[ray];
   if (shown.lights.empty())
     throw Error(

@@ -90,11 +90,12 @@ class Writer {
 
 }  // namespace
 
-std::string probe_text(const Probe& probe, const Scene& scene) {
+std::string probe_text(const Probe& probe, const Scene& scene, std::optional<std::size_t> ray) {
   Writer writer;
   writer.line("pixel {},{} by {} in double, {} camera ray{}; t counts from the camera", probe.x,
               probe.y, probe.estimator, probe.rays.size(), probe.rays.size() == 1 ? "" : "s");
-  for (std::size_t i = 0; i < probe.rays.size(); ++i) writer.ray(probe.rays[i], i, scene);
+  for (std::size_t i = 0; i < probe.rays.size(); ++i)
+    if (i == ray.value_or(i)) writer.ray(probe.rays[i], i, scene);
   writer.line("pixel");
   writer.sums("  means: ", probe.mean);
   writer.line("  in-scatter {} + surface {} = radiance {} W/(m2 sr)", text(probe.in_scatter),
