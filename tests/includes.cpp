@@ -26,8 +26,11 @@ const std::map<std::string, Names> may_include = {
     {"src/scene", {"src", "src/image", "include/airlight"}},
     {"src/geometry", {"src", "src/image", "src/scene", "include/airlight"}},
     {"src/render", {"src", "src/image", "src/scene", "src/geometry", "include/airlight"}},
-    {"apps",
+    {"src/study",
      {"src", "src/image", "src/report", "src/scene", "src/geometry", "src/render",
+      "include/airlight"}},
+    {"apps",
+     {"src", "src/image", "src/report", "src/scene", "src/geometry", "src/render", "src/study",
       "include/airlight"}},
 };
 

@@ -15,13 +15,16 @@ inline std::string flag_of(std::string key) {
 }
 
 /// A flag for every parameter that T describes. What the user gives becomes a change of
-/// `prefix` + key, so that it is read, and refused, as the same key of a file is.
+/// `prefix` + key, so that it is read, and refused, as the same key of a file is. Keys in `without`
+/// get none.
 template <airlight::Described T>
 void add_flags(CLI::App& verb, const std::string& prefix, const std::string& group,
-               std::vector<airlight::Override>& changes) {
+               std::vector<airlight::Override>& changes,
+               const std::vector<std::string>& without = {}) {
   T::describe([&](const std::string& key, auto member, const char* unit,
                   const airlight::Range& range, const char* meaning) {
     using Member = std::remove_cvref_t<decltype(std::declval<T>().*member)>;
+    if (std::ranges::find(without, key) != without.end()) return;
     const std::string flag = flag_of(key);
     verb.add_option_function<std::string>(
             flag,

@@ -5,7 +5,7 @@
 #include "numbers.h"
 #include "scene/load_scene.h"
 
-void SceneFlags::declare(CLI::App& verb) {
+void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without) {
   verb.add_option("SCENE", file_, "a scene (.toml) or a model (.obj, .gltf, .glb)")
       ->required()
       ->type_name("");
@@ -33,7 +33,11 @@ void SceneFlags::declare(CLI::App& verb) {
       ->type_name("")
       ->take_last()
       ->group("Scene");
-  add_flags<airlight::RenderSettings>(verb, "render.", "Render", changes_);
+  add_flags<airlight::RenderSettings>(verb, "render.", "Render", changes_, without);
+}
+
+void SceneFlags::preset(const std::string& path, const std::string& value) {
+  changes_.emplace(changes_.begin(), path, value, path + " = " + value);
 }
 
 airlight::Scene SceneFlags::load() const {

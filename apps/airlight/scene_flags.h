@@ -9,7 +9,11 @@
 /// paths, and a flag for every setting of a render.
 class SceneFlags {
  public:
-  void declare(CLI::App& verb);
+  /// `without` are keys of the render settings that the verb has no flag for.
+  void declare(CLI::App& verb, const std::vector<std::string>& without = {});
+
+  /// Gives a value of the scene a default of the verb's own, which flags and -D still change.
+  void preset(const std::string& path, const std::string& value);
 
   /// The scene with all changes made. Throws airlight::Error.
   airlight::Scene load() const;

@@ -1,0 +1,137 @@
+#include "study/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.h"
+#include "image/input.h"
+#include "render/render.h"
+
+namespace airlight {
+namespace {
+
+/// The seed of a computed reference: far from those of the runs.
+constexpr std::int64_t reference_seed = 0x5eed0000;
+constexpr std::int64_t default_reference_spp = 16384;
+/// Above this many triangles the exact shadows, which look at every one, take longer than samples.
+constexpr std::size_t most_exact_triangles = 4096;
+
+std::size_t triangle_count(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) count += mesh->triangles.size();
+  return count;
+}
+
+/// Whether the closed form knows this scene and the pictures are point-sampled at pixel centres, as
+/// its is.
+bool has_exact_reference(const Scene& scene, Renderer& renderer, RenderSettings settings) {
+  if (settings.samples_per_ray != 0 || triangle_count(scene) > most_exact_triangles) return false;
+  settings.estimator = "closed_form";
+  try {
+    renderer.check(settings);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void make_reference(const Scene& scene, const ComparisonSettings& settings, Renderer& renderer,
+                    Comparison& comparison) {
+  if (!settings.reference_file.empty()) {
+    comparison.reference = read_image(settings.reference_file);
+    const auto [width, height] = scene.resolution;
+    if (comparison.reference.width != width || comparison.reference.height != height)
+      throw Error(fmt::format("{}: is {} x {} pixels; accepted: a reference of the scene's {} x {}",
+                              settings.reference_file.string(), comparison.reference.width,
+                              comparison.reference.height, width, height));
+    comparison.reference_source = "the picture " + settings.reference_file.filename().string();
+    return;
+  }
+  RenderSettings reference = scene.render;
+  if (settings.reference_spp == 0 && has_exact_reference(scene, renderer, reference)) {
+    reference.estimator = "closed_form";
+    reference.spp = 1;
+    comparison.reference_source = "the exact closed form, without noise";
+  } else {
+    reference.estimator = "rewv";
+    reference.spp = settings.reference_spp > 0 ? settings.reference_spp : default_reference_spp;
+    reference.seed = reference_seed;
+    comparison.reference_source =
+        fmt::format("rewv at {} spp with a seed of its own", reference.spp);
+  }
+  comparison.reference = renderer.render(reference).film.layer("beauty");
+}
+
+/// The count that an estimator reaches in the given time, from the speed of runs that double until
+/// they take a good part of it.
+std::int64_t samples_in(double seconds, Renderer& renderer, RenderSettings settings) {
+  for (settings.spp = 1;; settings.spp *= 2) {
+    const double taken = renderer.render(settings).seconds;
+    if (taken > 0.4 * seconds || settings.spp >= (1 << 24))
+      return std::max<std::int64_t>(1, std::llround(double(settings.spp) * seconds / taken));
+  }
+}
+
+Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const Image& reference,
+                 Comparison& comparison, const std::function<void()>& done_one) {
+  Measured row{.estimator = settings.estimator,
+               .spp = settings.spp,
+               .seconds = {},
+               .metrics = {},
+               .picture = {}};
+  std::vector<double> seconds;
+  std::array<std::vector<double>, metric_list.size()> values;
+  const std::int64_t first_seed = settings.seed;
+  for (int i = 0; i < seeds; ++i) {
+    settings.seed = first_seed + i;
+    const Rendered rendered = renderer.render(settings);
+    comparison.instruction_set = rendered.instruction_set;
+    Image picture = rendered.film.layer("beauty");
+    const Metrics metrics = compare(picture, reference);
+    seconds.push_back(rendered.seconds);
+    for (std::size_t m = 0; m < metric_list.size(); ++m)
+      values[m].push_back(metrics.*metric_list[m].value);
+    if (i == 0) row.picture = std::move(picture);
+    done_one();
+  }
+  row.seconds = spread(seconds);
+  for (std::size_t m = 0; m < metric_list.size(); ++m) row.metrics[m] = spread(values[m]);
+  return row;
+}
+
+}  // namespace
+
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings,
+                              const std::function<void(double)>& on_progress) {
+  Renderer renderer(scene);
+  for (const std::string& estimator : settings.estimators) {
+    RenderSettings one = scene.render;
+    one.estimator = estimator;
+    renderer.check(one);
+  }
+  Comparison comparison;
+  make_reference(scene, settings, renderer, comparison);
+
+  const std::vector<std::int64_t> counts =
+      settings.equal_time > 0 ? std::vector<std::int64_t>{0} : settings.spp;
+  double work = 0, done = 0;
+  for (std::int64_t spp : counts) work += double(std::max<std::int64_t>(spp, 1));
+  work *= double(settings.estimators.size()) * settings.seeds;
+  for (const std::string& estimator : settings.estimators)
+    for (std::int64_t spp : counts) {
+      RenderSettings one = scene.render;
+      one.estimator = estimator;
+      one.spp = spp > 0 ? spp : samples_in(settings.equal_time, renderer, one);
+      comparison.rows.push_back(
+          measure(renderer, one, settings.seeds, comparison.reference, comparison, [&] {
+            done += double(std::max<std::int64_t>(spp, 1));
+            if (on_progress) on_progress(done / work);
+          }));
+    }
+  return comparison;
+}
+
+}  // namespace airlight

@@ -1,0 +1,51 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "image/metrics.h"
+#include "report/statistics.h"
+#include "scene/scene.h"
+
+namespace airlight {
+
+/// What to compare on a scene and with what.
+struct ComparisonSettings {
+  std::vector<std::string> estimators;  ///< short names or placement+form
+  std::vector<std::int64_t> spp;        ///< sample counts, ascending
+  int seeds = 4;                        ///< independent runs of each, from the scene's seed on
+  double equal_time = 0;  ///< seconds for each estimator instead of `spp`; 0: off  [s]
+  std::filesystem::path reference_file;  ///< a picture to compare with; empty: computed
+  std::int64_t reference_spp =
+      0;  ///< of a computed reference; 0: the closed form if there is one, else 16384
+};
+
+/// One estimator at one number of samples, over all seeds.
+struct Measured {
+  std::string estimator;
+  std::int64_t spp = 0;
+  Spread seconds;                                  ///< without loading  [s]
+  std::array<Spread, metric_list.size()> metrics;  ///< in the order of `metric_list`
+  Image picture;                                   ///< of the first seed
+};
+
+struct Comparison {
+  Image reference;
+  std::string reference_source;  ///< in words
+  std::vector<Measured> rows;    ///< by estimator, then by spp
+  const char* instruction_set = "";
+};
+
+/// Renders every estimator at every count with every seed and measures its distance to the
+/// reference. `on_progress` is told the part that is done. Throws Error where an estimator can't
+/// serve the scene or the reference does not fit.
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings,
+                              const std::function<void(double)>& on_progress = {});
+
+/// Writes index.html, results.csv and the pictures into a folder, which is made if it is missing.
+void write_comparison(const Comparison& comparison, const std::string& scene_name,
+                      const std::filesystem::path& folder);
+
+}  // namespace airlight
