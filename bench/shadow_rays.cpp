@@ -72,7 +72,8 @@ struct PictureOfRays {
           const Vec3<float> origin(camera.position);
           const Vec3<float> direction = normalize(
               Vec3<float>(camera.corner + camera.right * (x + 0.5) + camera.down * (y + 0.5)));
-          MediumRay<float> ray{.origin = origin, .direction = direction};
+          MediumRay<float> ray;
+          ray.origin = origin, ray.direction = direction;
           LocalRay<float> local{Vec3<float>(space.point(camera.position)), space.vector(direction)};
           const Interval<float> inside = space.clip(local);
           const Hit<float> hit = world.closest<float>(origin, direction, 0, true);

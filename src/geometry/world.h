@@ -48,6 +48,9 @@ class World {
   /// Whether any surface lets light through.
   bool filters() const noexcept { return filters_; }
 
+  /// The Embree scene itself, for measuring against it; null for analytic visibility.
+  RTCScene embree() const noexcept { return embree_.get(); }
+
   /// Around all objects.
   const Bounds& bounds() const noexcept { return bounds_; }
 
