@@ -28,6 +28,9 @@ class EmbreeSurfaces {
   template <Real F>
   Hit<F> closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active) const noexcept;
 
+  /// What Embree's own functions take.
+  RTCScene handle() const noexcept { return embree_.get(); }
+
  private:
   struct Release {
     void operator()(RTCDevice device) const noexcept { rtcReleaseDevice(device); }

@@ -49,7 +49,7 @@ class World {
   bool filters() const noexcept { return filters_; }
 
   /// The Embree scene itself, for measuring against it; null for analytic visibility.
-  RTCScene embree() const noexcept { return embree_.get(); }
+  RTCScene embree() const noexcept { return embree_ ? embree_->handle() : nullptr; }
 
   /// Around all objects.
   const Bounds& bounds() const noexcept { return bounds_; }
