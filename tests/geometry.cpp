@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 
+#include "geometry/flush_to_zero.h"
 #include "geometry/world.h"
 
 namespace airlight {
@@ -671,6 +672,15 @@ TEST(World, does_not_look_up_textures_without_holes) {
   EXPECT_FALSE(World(scene, Visibility::embree).filters());
   scene.objects[0].material.opacity_from_alpha = false;
   EXPECT_TRUE(World(scene, Visibility::embree).filters());
+}
+
+TEST(FlushToZero, lasts_as_long_as_it_lives) {
+  volatile float tiny = 1e-38f;
+  {
+    const FlushToZero flush;
+    EXPECT_EQ(tiny * 0.1f, 0);
+  }
+  EXPECT_GT(tiny * 0.1f, 0);
 }
 
 TEST(World, knows_its_bounds) {

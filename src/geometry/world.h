@@ -21,13 +21,14 @@ struct SurfacePoint {
   std::uint32_t object;          ///< index into Scene::objects
 };
 
-/// What a kernel may ask of the scene's surfaces. Any thread may ask at any time.
-/// Rays do not know the surface they start on: one that leaves a surface starts a little above it.
+/// What a kernel may ask of the scene's surfaces. Any thread may ask at any time. Rays do not know
+/// the surface they start on: one that leaves a surface starts a little above it.
 class World {
  public:
   /// Builds what answers the rays. The scene must outlive the World and must not change: meshes are
   /// shared with it. Throws Error if memory does not suffice.
   World(const Scene& scene, Visibility visibility);
+  World(const Scene&& scene, Visibility visibility) = delete;
 
   /// What light is multiplied by on the way from `from` to `from + t_max dir`: the product of (1 −
   /// opacity) · tint over the surfaces it crosses; 1 is free, 0 blocked. 0 in lanes that are not
@@ -57,11 +58,10 @@ class World {
  private:
   const Scene* scene_;
   Bounds bounds_;
-  std::vector<SurfaceFilter>
-      surfaces_;  ///< one an object; they stay where they are when a World moves
+  std::vector<SurfaceFilter> surfaces_;  ///< one an object; a move leaves them where they are
   bool filters_;
-  std::optional<EmbreeSurfaces> embree_;
-  std::optional<ExactSurfaces> exact_;  ///< one of the two
+  std::optional<EmbreeSurfaces> embree_;  ///< either this
+  std::optional<ExactSurfaces> exact_;    ///< or this
 };
 
 template <Real F>
