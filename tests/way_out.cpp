@@ -526,6 +526,37 @@ TEST(Convex, ends_where_its_inside_ends) {
   ends.expect_below(2e-13);
 }
 
+/// Rays parallel to faces of the cube [-1, 1]^3: into it and past it.
+template <class Shape>
+void check_parallel_rays(const Shape& shape) {
+  const auto cube = shape.space();
+  const test::Body body = test::box_body();
+  for (const double x : {-1.5, -0.5, 0., 0.9, 1.1, 3.})
+    for (const double y : {-2., -0.3, 0.5, 1.5})
+      for (const double z : {-4., -0.7, 0.1, 2.})
+        for (const Vec3<double>& d :
+             {Vec3<double>(1, 0, 0), Vec3<double>(0, -1, 0), Vec3<double>(0, 0, 1),
+              Vec3<double>(0.6, 0.8, 0), Vec3<double>(0, -0.6, 0.8), Vec3<double>(-0.8, 0, -0.6)}) {
+          const Vec3<double> eye(x, y, z);
+          const Interval<double> inside =
+              cube.clip(LocalRay<double>{cube.point(eye), cube.vector(d)});
+          for (double t = 0.013; t < 10; t += 0.1)
+            EXPECT_EQ(t > inside.t_enter && t < inside.t_exit,
+                      test::is_inside(body, test::along(point(eye), point(d), t)))
+                << "from " << x << " " << y << " " << z << " at " << t;
+        }
+}
+
+TEST(Box, is_hit_or_missed_by_rays_parallel_to_its_faces) { check_parallel_rays(unit_box); }
+
+TEST(Convex, is_hit_or_missed_by_rays_parallel_to_its_faces) {
+  Convex cube;
+  for (const test::HalfSpace& face : test::box_body())
+    cube.faces[std::size_t(cube.face_count++)] = {
+        {double(face.n[0]), double(face.n[1]), double(face.n[2])}, double(face.h)};
+  check_parallel_rays(cube);
+}
+
 TEST(Box, is_a_convex_of_six_faces) {
   Random random(12);
   Worst worst("T of a turned box against a polyhedron, relative difference / (1 + depth)");
