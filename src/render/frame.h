@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geometry/parallel_shadows.h"
 #include "geometry/world.h"
 #include "render/film.h"
 
@@ -27,6 +28,7 @@ struct Frame {
   std::uint32_t surface_samples =
       1;  ///< shadow rays of a surface towards a light with a disc, a camera ray
   std::uint32_t seed = 0;
+  std::vector<ParallelShadows> shadows;  ///< one a light, for the exact estimator only
 };
 
 /// A part of the picture that one worker renders, with its sums in double.

@@ -102,6 +102,9 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
               .world = world,
               .camera = camera_frame(scene.camera, scene.resolution),
               .estimator = estimator};
+  if (std::holds_alternative<ClosedForm>(estimator))
+    for (const Lights& light : scene.lights)
+      frame.shadows.emplace_back(scene, std::get<Directional>(light).direction);
   frame.filter = settings.filter;
   // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all
   // share one.

@@ -26,7 +26,7 @@ class SurfaceWalk {
     F t(0);
     bool first = true;
     Rgb<F> filter(F(1));  // of all crossed so far
-    while (any(active)) {
+    for (int crossed = 0; crossed < most_crossings && any(active); ++crossed) {
       const Hit<F> hit = frame_.world.template closest<F>(origin, direction, t, active);
       const Mask<F> found = hit.found & active;
       const F t_next = select(found, hit.t, F(far_away));
@@ -59,6 +59,9 @@ class SurfaceWalk {
   }
 
  private:
+  /// Behind so many sheets of glass or leaves nothing is looked for any more.
+  static constexpr int most_crossings = 128;
+
   /// A packet's surfaces.
   struct Crossing {
     Vec3<F> normal, geometric;  ///< towards the viewer

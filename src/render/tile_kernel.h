@@ -33,6 +33,18 @@ Vec2<F> filter_offset(PixelFilter filter, Vec2<F> u) noexcept {
   return {radius * cosine, radius * sine};
 }
 
+/// Where light arrives, for the estimator that asks for whole intervals.
+struct ExactVisibility {
+  const std::vector<ParallelShadows>& shadows;
+
+  template <class Sink>
+  void lit(Vec3<double> origin, Vec3<double> direction, double t_max, int light,
+           Sink&& sink) const {
+    for (const auto& part : shadows[std::size_t(light)].lit(origin, direction, t_max))
+      sink(part.t_enter, part.t_exit);
+  }
+};
+
 /// Sums of a packet, a lane a pixel, until they are spilled into the tile's.
 template <Real F>
 struct PacketSums {
@@ -52,6 +64,10 @@ void add_in_scatter(const Frame& frame, const Space& space, const L& light, int 
   if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
     sampled->template add<channels>(*frame.scene.medium, space, light, index, ray, samples,
                                     halve_by_ray, sampler, frame.world, sums, watch);
+  if constexpr (std::same_as<F, double>)
+    if (const auto* exact = std::get_if<ClosedForm>(&frame.estimator); exact && ray.active)
+      exact->template add<channels>(*frame.scene.medium, space, light, index, ray, samples,
+                                    halve_by_ray, ExactVisibility{frame.shadows}, sums);
 }
 
 template <int channels, Real F, class Space, class L>
