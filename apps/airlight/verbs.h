@@ -2,6 +2,7 @@
 #include "verb.h"
 
 Action set_up_info(CLI::App& verb);
+Action set_up_list(CLI::App& verb);
 Action set_up_probe(CLI::App& verb);
 Action set_up_compare(CLI::App& verb);
 Action set_up_render(CLI::App& verb);
@@ -12,4 +13,5 @@ inline constexpr Verb verbs[] = {
     {"probe", "tell what happens along the camera rays of a pixel", set_up_probe},
     {"info", "tell what is in a scene and what to expect of it", set_up_info},
     {"compare", "measure how far estimators are from a reference, as a page", set_up_compare},
+    {"list", "tell everything that scenes and renders can be made of", set_up_list},
 };

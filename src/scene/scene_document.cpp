@@ -13,8 +13,10 @@ void check(const Camera& camera, const Cursor& at) {
   if (!view) at.at_or_here("target").complain("equals camera.position: the camera looks nowhere");
   const auto up = unit_vector(camera.up);
   if (!up) at.at_or_here("up").refuse("is no direction: at least one number must not be 0");
-  if (length(cross(*view, *up)) < 1e-6)
-    at.at_or_here("up").refuse("is parallel to the view: accepted is any other direction");
+  if (length(cross(*view, *up)) >= 1e-6) return;
+  if (const auto given = at.find("up"))
+    given->refuse("is parallel to the view: accepted is any other direction");
+  at.complain("looks straight up or down, parallel to its up: give camera.up another direction");
 }
 
 void check(const RenderSettings& render, const Cursor& at) {

@@ -46,10 +46,12 @@ struct SurfacedObject : PlacedObject {
   static constexpr void describe(Visitor&& field) {
     PlacedObject::describe(field);
     using O = SurfacedObject;
-    field("albedo", &O::albedo, unit::one, closed(0, 1), "what part of the light it reflects");
+    field("albedo", &O::albedo, unit::one, closed(0, 1),
+          "what part of the light it reflects; 0.5 if nothing is said");
     field("albedo_texture", &O::albedo_texture, unit::none, any_number(),
           "picture that multiplies the albedo; its path starts at the scene file");
-    field("opacity", &O::opacity, unit::one, closed(0, 1), "what part of the light it stops");
+    field("opacity", &O::opacity, unit::one, closed(0, 1),
+          "what part of the light it stops; 1 if nothing is said");
     field("opacity_texture", &O::opacity_texture, unit::none, any_number(),
           "picture that multiplies the opacity by its alpha or, without one, its red");
     field("cutoff", &O::cutoff, unit::one, closed(0, 1),
