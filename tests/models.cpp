@@ -604,6 +604,86 @@ TEST_F(InScenes, are_complained_about_at_their_line) {
   }
 }
 
+/// A rectangle of an OBJ file that faces along u × v.
+std::string rectangle(Vec3<double> corner, Vec3<double> u, Vec3<double> v) {
+  std::string text;
+  for (const Vec3<double>& p : {corner, corner + u, corner + u + v, corner + v})
+    text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+  return text + "f -4 -3 -2 -1\n";
+}
+
+/// A box of 6 by 3 by 8 m whose walls face in, with a window in the wall at x = 0 if asked.
+std::string room(bool window) {
+  const std::string walls = rectangle({0, 0, 0}, {0, 0, 8}, {6, 0, 0}) +  // floor
+                            rectangle({0, 3, 0}, {6, 0, 0}, {0, 0, 8}) +  // ceiling
+                            rectangle({0, 0, 0}, {6, 0, 0}, {0, 3, 0}) +  // z = 0
+                            rectangle({0, 0, 8}, {0, 3, 0}, {6, 0, 0}) +  // z = 8
+                            rectangle({6, 0, 0}, {0, 0, 8}, {0, 3, 0});   // x = 6
+  if (!window) return walls + rectangle({0, 0, 0}, {0, 3, 0}, {0, 0, 8});
+  return walls + rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 8}) +
+         rectangle({0, 2.5, 0}, {0, 0.5, 0}, {0, 0, 8}) +
+         rectangle({0, 1, 0}, {0, 1.5, 0}, {0, 0, 3}) +
+         rectangle({0, 1, 5}, {0, 1.5, 0}, {0, 0, 3});
+}
+
+TEST_F(InScenes, rooms_are_seen_from_inside_with_the_sun_in_the_window) {
+  const Scene scene = load_scene(write_text(scratch_ / "room.obj", room(true)));
+  const auto inside = [](Vec3<double> p, double slack) {
+    return p.x >= -slack && p.y >= -slack && p.z >= -slack && p.x <= 6 + slack &&
+           p.y <= 3 + slack && p.z <= 8 + slack;
+  };
+  EXPECT_TRUE(inside(scene.camera.position, -0.1));
+  EXPECT_TRUE(inside(scene.camera.target, 0));
+  ASSERT_EQ(scene.lights.size(), 1U);
+  EXPECT_LT(std::get<Directional>(scene.lights[0]).toward().x, 0);
+  EXPECT_GT(std::get<Directional>(scene.lights[0]).toward().y, 0);
+  const Box& fog = std::get<Box>(scene.medium->shape);
+  EXPECT_TRUE(inside(fog.min, 0.01) && inside(fog.max, 0.01));
+  const double depth = scene.medium->sigma_t.r * length(fog.max - fog.min);
+  EXPECT_GT(depth, 0.4);
+  EXPECT_LT(depth, 1.2);
+  ASSERT_EQ(scene.assumptions.size(), 2U);
+  EXPECT_EQ(scene.assumptions[0], "surfaces without a material are grey");
+  EXPECT_THAT(scene.assumptions[1], HasSubstr("a camera in the room"));
+}
+
+TEST_F(InScenes, things_are_seen_from_outside_in_a_cloud) {
+  const Scene scene = load_scene(write_text(scratch_ / "a.glb", square_document().glb()));
+  EXPECT_GT(length(scene.camera.position - Vec3<double>(0.5, 0.5, 0)), 1);
+  EXPECT_NEAR(scene.camera.target.x, 0.5, 1e-3);
+  const Box& fog = std::get<Box>(scene.medium->shape);
+  EXPECT_LT(fog.min.x, 0);
+  EXPECT_GT(fog.max.y, 1);
+  EXPECT_GT(fog.max.z, fog.min.z);
+  EXPECT_THAT(scene.assumptions, ElementsAre(HasSubstr("a camera outside")));
+  EXPECT_NO_THROW(load_scene(write_text(scratch_ / "closed.obj", room(false))));
+}
+
+TEST_F(InScenes, overrides_change_what_was_filled_in) {
+  const Scene scene =
+      load_scene(write_text(scratch_ / "room.obj", room(true)),
+                 {"lights.0.irradiance=3", "camera.position=[3, 1, 7]", "render.spp=2"});
+  EXPECT_EQ(std::get<Directional>(scene.lights[0]).irradiance, Rgb<double>(3));
+  EXPECT_EQ(scene.camera.position, Vec3<double>(3, 1, 7));
+  EXPECT_EQ(scene.render.spp, 2);
+}
+
+TEST_F(InScenes, the_models_own_camera_and_lights_count) {
+  GltfBuilder gltf = square_document();
+  gltf.json["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", pi / 4}, {"znear", 0.1}}}}};
+  gltf.json["nodes"].push_back({{"camera", 0}, {"translation", {4321.0 / 3, 2, 30}}});
+  gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}, {"intensity", 0.1}}};
+  gltf.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  const Scene scene = load_scene(write_text(scratch_ / "a.glb", gltf.glb()));
+  EXPECT_EQ(scene.camera.position.x, 4321.0 / 3);
+  EXPECT_EQ(scene.camera.target, scene.camera.position + Vec3<double>(0, 0, -1));
+  EXPECT_NEAR(scene.camera.fov, 45, 1e-12);
+  EXPECT_EQ(std::get<Directional>(scene.lights.at(0)).direction, Vec3<double>(0, 0, -1));
+  EXPECT_EQ(std::get<Directional>(scene.lights.at(0)).irradiance, Rgb<double>(0.1));
+}
+
 // ---- Files that something chewed on
 
 /// Loads every damaged copy: it may be accepted or refused in one line, never more.

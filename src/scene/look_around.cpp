@@ -3,20 +3,23 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace airlight {
 namespace {
 
 constexpr std::size_t n = Panorama::directions;
 
+constexpr double lowest = -0.5, highest = 0.866;  ///< heights above the horizon, as sines
+
 /// Fibonacci's spiral on a belt of the sphere, from 30 degrees below the horizon to 60 above.
 struct Directions {
   std::array<float, n> x, y, z;
 
   Directions() {
-    constexpr double low = -0.5, high = 0.866, golden_angle = 2.399963229728653;
+    constexpr double golden_angle = 2.399963229728653;
     for (std::size_t i = 0; i < n; ++i) {
-      const double height = low + (high - low) * (double(i) + 0.5) / double(n);
+      const double height = lowest + (highest - lowest) * (double(i) + 0.5) / double(n);
       const double radius = std::sqrt(1 - height * height), azimuth = golden_angle * double(i);
       x[i] = float(radius * std::cos(azimuth));
       y[i] = float(height);
@@ -33,16 +36,39 @@ const Directions& all_directions() {
 /// The nearest hit of each direction as the distance's inverse; negative on a surface's back.
 using Nearness = std::array<float, n>;
 
+/// Some of the directions, from one index to before another.
+struct Some {
+  std::size_t begin, end;
+};
+
+/// Those that may meet the triangle abc. They rise with their index, so that few are as high above
+/// the horizon as a small triangle.
+Some directions_to(Vec3<float> a, Vec3<float> b, Vec3<float> c) {
+  const Vec3<float> centre = (a + b + c) * (1 / 3.0F);
+  const Vec3<float> ca = a - centre, cb = b - centre, cc = c - centre;
+  const float radius = std::sqrt(std::max({dot(ca, ca), dot(cb, cb), dot(cc, cc)}));
+  const float far = length(centre);
+  if (!(radius < 0.9F * far)) return {0, n};
+  // An angle is at most pi / 2 times its sine, and height changes by less than the angle.
+  const float height = centre.y / far, margin = 1.6F * radius / far + 1e-3F;
+  const auto index = [](float h) {
+    return std::clamp((h - float(lowest)) * float(n / (highest - lowest)), 0.0F, float(n));
+  };
+  return {std::size_t(index(height - margin)), std::size_t(std::ceil(index(height + margin)))};
+}
+
 /// A ray from the origin meets the triangle abc where it lies on the same side of the planes
 /// through the origin and each edge; its distance is the triangle's volume over the sum of the
 /// three.
 void add_triangle(Vec3<float> a, Vec3<float> b, Vec3<float> c, const Directions& d,
                   Nearness& nearest) {
+  const Some some = directions_to(a, b, c);
+  if (some.begin >= some.end) return;
   const Vec3<float> ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
   const float volume = dot(a, bc);
   if (volume == 0) return;
   const float inverse = 1 / volume;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = some.begin; i < some.end; ++i) {
     const float u = ab.x * d.x[i] + ab.y * d.y[i] + ab.z * d.z[i];
     const float v = bc.x * d.x[i] + bc.y * d.y[i] + bc.z * d.z[i];
     const float w = ca.x * d.x[i] + ca.y * d.y[i] + ca.z * d.z[i];

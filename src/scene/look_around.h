@@ -36,8 +36,8 @@ struct Panorama {
   double free_way(Vec3<double> toward) const;
 };
 
-/// Looks around from several points, on all cores; about a nanosecond a triangle, point and
-/// direction and core.
+/// Looks around from several points, on all cores; about ten nanoseconds a small triangle, point
+/// and core.
 std::vector<Panorama> look_around(const std::vector<Object>& objects,
                                   const std::vector<Vec3<double>>& points);
 

@@ -25,6 +25,9 @@ struct View {
   Bounds fog;
 };
 
+std::string exact(Vec v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+/// For a sentence.
 std::string text(Vec v) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z); }
 
 Vec at(const Bounds& box, double x, double y, double z) {
@@ -121,8 +124,8 @@ View view_of(const Model& model) {
 }
 
 std::string camera_table(const Camera& camera) {
-  return fmt::format("[camera]\nposition = {}\ntarget = {}\nup = {}\nfov = {:.6g}\n",
-                     text(camera.position), text(camera.target), text(camera.up), camera.fov);
+  return fmt::format("[camera]\nposition = {}\ntarget = {}\nup = {}\nfov = {}\n",
+                     exact(camera.position), exact(camera.target), exact(camera.up), camera.fov);
 }
 
 std::string light_table(const Directional& light) {
@@ -146,7 +149,7 @@ std::string fog_table(const Bounds& box) {
   return fmt::format(
       "[[media]]\nalbedo = 0.97\nsigma_t = {:.3g}\nphase = {{type = \"henyey-greenstein\", g = "
       "0.4}}\nshape = {{type = \"box\", min = {}, max = {}}}\n",
-      0.8 / length(box.size()), text(box.min), text(box.max));
+      0.8 / length(box.size()), exact(box.min), exact(box.max));
 }
 
 }  // namespace
