@@ -1,0 +1,120 @@
+// What a model without a scene file stands for: a camera, a sun and fog.
+
+#include "scene/stand_in.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "image/atomic_file.h"
+#include "scene/load_scene.h"
+#include "scene/look_around.h"
+#include "scene/objects/build.h"
+#include "support/scratch.h"
+
+namespace airlight {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Object object(Mesh mesh) { return {"part", std::move(mesh), {}}; }
+
+Model cube() {
+  Mesh mesh;
+  add_box(mesh, {0, 0, 0}, {2, 2, 2});
+  Model model;
+  model.objects.push_back(object(std::move(mesh)));
+  return model;
+}
+
+/// A room of 6 m x 3 m x 4 m between thick walls, open to +x above a parapet.
+Model room() {
+  Mesh mesh;
+  add_box(mesh, {-1, -1, -1}, {7, 0, 5});
+  add_box(mesh, {-1, 3, -1}, {7, 4, 5});
+  add_box(mesh, {-1, 0, -1}, {0, 3, 5});
+  add_box(mesh, {0, 0, -1}, {7, 3, 0});
+  add_box(mesh, {0, 0, 4}, {7, 3, 5});
+  add_box(mesh, {6, 0, 0}, {6.2, 1, 4});
+  Model model;
+  model.objects.push_back(object(std::move(mesh)));
+  return model;
+}
+
+/// What a stand-in's scene file means, the model itself left out.
+Scene scene_of(const StandIn& stand_in) {
+  return parse_scene(stand_in.toml.substr(0, stand_in.toml.find("[[objects]]")), "model");
+}
+
+}  // namespace
+
+TEST(LookAround, tells_inside_from_outside) {
+  const auto middle = look_around(room().objects, {{3, 1.5, 2}})[0];
+  EXPECT_GT(middle.enclosed(), 0.8);
+  EXPECT_EQ(middle.inside_out(), 0);
+  const auto solid = look_around(cube().objects, {{1, 1, 1}})[0];
+  EXPECT_EQ(solid.inside_out(), 1);
+}
+
+TEST(LookAround, measures_distances) {
+  const auto seen = look_around(cube().objects, {{1, 1, 1}})[0];
+  for (std::size_t i = 0; i < Panorama::directions; ++i) {
+    const Vec3<double> d = Panorama::direction(i);
+    const double farthest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    EXPECT_NEAR(seen.distance[i] * farthest, 1, 1e-5);
+  }
+}
+
+TEST(StandIn, sees_a_thing_from_outside) {
+  const StandIn stand_in = stand_in_for(cube(), "cube.obj");
+  EXPECT_THAT(stand_in.assumed, HasSubstr("a camera outside at "));
+  const Scene scene = scene_of(stand_in);
+  EXPECT_GT(length(scene.camera.position - Vec3<double>{1, 1, 1}), 3);
+  const Box& fog = std::get<Box>(scene.medium->shape);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_LT(fog.min[k], 0);
+    EXPECT_GT(fog.max[k], 2);
+  }
+}
+
+TEST(StandIn, sees_a_room_from_inside_with_the_sun_in_its_window) {
+  const StandIn stand_in = stand_in_for(room(), "room.obj");
+  EXPECT_THAT(stand_in.assumed, HasSubstr("a camera in the room at "));
+  const Scene scene = scene_of(stand_in);
+  const Vec3<double> eye = scene.camera.position;
+  EXPECT_TRUE(eye.x > 0 && eye.x < 6 && eye.y > 0 && eye.y < 3 && eye.z > 0 && eye.z < 4);
+  const Vec3<double> light = std::get<Directional>(scene.lights.at(0)).direction;
+  EXPECT_LT(light.x, -0.5) << "the window is open to +x";
+  EXPECT_LT(light.y, -0.2);
+}
+
+TEST(StandIn, keeps_the_camera_and_the_lights_of_a_model) {
+  Model model = cube();
+  model.camera = Camera{{5, 6, 7}, {0, 1, 0}, {0, 1, 0}, 33};
+  model.lights.push_back(Directional{{1, 2, 3}, {0, 0.6, -0.8}, 0.5});
+  const StandIn stand_in = stand_in_for(model, "cube.obj");
+  EXPECT_THAT(stand_in.assumed, StartsWith("assumed: fog from "));
+  const Scene scene = scene_of(stand_in);
+  EXPECT_EQ(scene.camera.position, Vec3<double>(5, 6, 7));
+  EXPECT_EQ(scene.camera.fov, 33);
+  const auto& light = std::get<Directional>(scene.lights.at(0));
+  EXPECT_EQ(light.irradiance, Rgb<double>(1, 2, 3));
+  EXPECT_NEAR(light.direction.z, -0.8, 1e-15);
+  EXPECT_EQ(light.angular_diameter, 0.5);
+}
+
+TEST(StandIn, makes_a_scene_of_a_model_file) {
+  const ScratchFolder scratch;
+  const std::filesystem::path file = scratch / "a 'b'.obj";
+  write_text(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Scene scene = load_scene(file, {"render.spp=3", "lights.0.azimuth=10", "camera.fov=20"});
+  ASSERT_EQ(scene.objects.size(), 1U);
+  EXPECT_TRUE(scene.medium);
+  EXPECT_EQ(scene.render.spp, 3);
+  EXPECT_EQ(scene.camera.fov, 20);
+  EXPECT_THAT(scene.assumptions, Contains(StartsWith("assumed: a camera outside at ")));
+}
+
+}  // namespace airlight
