@@ -6,6 +6,7 @@ Action set_up_list(CLI::App& verb);
 Action set_up_probe(CLI::App& verb);
 Action set_up_compare(CLI::App& verb);
 Action set_up_render(CLI::App& verb);
+Action set_up_reproduce(CLI::App& verb);
 
 /// Every verb there is. To add one: its file beside this one and its two lines here.
 inline constexpr Verb verbs[] = {
@@ -14,4 +15,5 @@ inline constexpr Verb verbs[] = {
     {"info", "tell what is in a scene and what to expect of it", set_up_info},
     {"compare", "measure how far estimators are from a reference, as a page", set_up_compare},
     {"list", "tell everything that scenes and renders can be made of", set_up_list},
+    {"reproduce", "compute a figure of a paper again and hold it to its numbers", set_up_reproduce},
 };

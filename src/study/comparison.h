@@ -17,7 +17,7 @@ struct ComparisonSettings {
   std::vector<std::int64_t> spp;        ///< sample counts, ascending
   int seeds = 4;                        ///< independent runs of each, from the scene's seed on
   double equal_time = 0;  ///< seconds for each estimator instead of `spp`; 0: off  [s]
-  std::filesystem::path reference_file;  ///< a picture to compare with; empty: computed
+  std::filesystem::path reference_file = {};  ///< a picture to compare with; empty: computed
   std::int64_t reference_spp =
       0;  ///< of a computed reference; 0: the closed form if there is one, else 16384
 };

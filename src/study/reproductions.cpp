@@ -1,0 +1,64 @@
+#include "study/reproductions.h"
+
+#include <fmt/format.h>
+
+#include "error.h"
+
+namespace airlight {
+
+/// Velinov and Mitchell 2021, "Collimated Whole Volume Light Scattering in Homogeneous Finite
+/// Media".
+namespace paper_000 {
+void fig1a(Reproduced& out);
+void fig4(Reproduced& out);
+void fig5(Reproduced& out);
+void fig6_single(Reproduced& out);
+void fig7_single(Reproduced& out);
+void fig11(Reproduced& out);
+void rgb(Reproduced& out);
+}  // namespace paper_000
+
+namespace {
+
+constexpr Reproduction all[] = {
+    {"000/fig1a", "A sunlit room at four samples a pixel",
+     "Sun through windows into the fog of a furnished room, by every estimator at 4 spp.",
+     paper_000::fig1a},
+    {"000/fig4", "Where whole-volume samples go: one trapezoid",
+     "The samples' histogram against their density where the way through the medium has one piece.",
+     paper_000::fig4},
+    {"000/fig5", "Where whole-volume samples go: two and three trapezoids",
+     "The samples' histogram against their density where the way through the medium has kinks.",
+     paper_000::fig5},
+    {"000/fig6-single", "Five estimators of single scattering at four samples a pixel",
+     "A black ball in a box of fog, and how far each estimator at 4 spp is from the exact picture.",
+     paper_000::fig6_single},
+    {"000/fig7-single", "How fast five estimators of single scattering converge",
+     "The scene of 000/fig6-single from 1 to 256 samples a pixel.", paper_000::fig7_single},
+    {"000/fig11", "Media with twelve and twenty faces",
+     "A dodecahedron and an icosahedron of fog: the closed form against quadrature, and pictures.",
+     paper_000::fig11},
+    {"000/rgb", "Whole-volume samples in coloured fog",
+     "What the ratio form gains over Monte Carlo where the channels are extinguished differently.",
+     paper_000::rgb},
+};
+
+}  // namespace
+
+std::span<const Reproduction> reproductions() { return all; }
+
+std::vector<const Reproduction*> reproductions_named(std::string_view name) {
+  std::vector<const Reproduction*> found;
+  std::string accepted;
+  const std::string below = std::string(name) + "/";
+  for (const Reproduction& r : all) {
+    if (r.name == name || std::string_view(r.name).starts_with(below)) found.push_back(&r);
+    accepted += fmt::format("{}{}", accepted.empty() ? "" : ", ", r.name);
+  }
+  if (found.empty())
+    throw Error(fmt::format("{}: is no reproduction; accepted: {}, or what some begin with: 000",
+                            name, accepted));
+  return found;
+}
+
+}  // namespace airlight
