@@ -29,8 +29,10 @@ struct Sampled {
   static constexpr auto meaning = "samples along the camera ray: a placement and a form";
 
   /// Discs up to this size are sampled about one way out through their centre; the closed form of
-  /// the centre differs from the disc's mean by 1e-4 at most. Wider ones get a way out of their own
-  /// for each camera ray.  [degrees]
+  /// the centre differs from the disc's mean by 1e-5 on the median ray and mostly below 5e-4, but by
+  /// percents beyond a depth of 10 and, towards the sun, where the phase function varies across the
+  /// disc: 1e-3 at g = 0.9, 0.2 at g = 0.99. Wider ones get a way out of their own for each camera
+  /// ray.  [degrees]
   static constexpr double narrow_disc = 0.6;
 
   const char* unsupported(const Medium& medium, const Lights& light) const noexcept {
