@@ -1,6 +1,6 @@
 #pragma once
+#include <array>
 #include <string>
-#include <vector>
 
 #include "scene/scene.h"
 
@@ -27,7 +27,7 @@ inline constexpr Configuration configurations[] = {
 inline constexpr double ball_radius = 0.7;  ///< [m]
 
 /// The five estimators of the paper, in the order of figure 6.
-inline const std::vector<std::string> five_estimators = {"mcwvds", "rm", "rees", "mcds", "reds"};
+inline constexpr std::array five_estimators = {"mcwvds", "rm", "rees", "mcds", "reds"};
 
 /// "MCWVDS" of "mcwvds".
 std::string upper_case(std::string name);

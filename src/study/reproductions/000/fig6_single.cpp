@@ -31,7 +31,9 @@ void fig6_single(Reproduced& out) {
   for (const Configuration& configuration : configurations) {
     const bool is_a = &configuration == configurations;
     const Comparison& comparison = comparisons.emplace_back(compare_estimators(
-        black_ball(configuration), {.estimators = five_estimators, .spp = {4}, .seeds = seeds}));
+        black_ball(configuration), {.estimators = {five_estimators.begin(), five_estimators.end()},
+                                    .spp = {4},
+                                    .seeds = seeds}));
     for (std::size_t i = 0; i < five_estimators.size(); ++i) {
       const Expected& e = expected[i];
       const double value = is_a ? e.a : e.b;

@@ -181,7 +181,8 @@ void sample_in_picture(const Scene& scene, Reproduced& out) {
       2,
       "In a picture. Every pixel has a density of its own, so samples can't be counted by "
       "distance: each is replaced by the part of its own ray's distribution that lies below it, "
-      "found by quadrature.");
+      "found by quadrature. (The four of a pixel are stratified, which makes the counts a little "
+      "more even than chance would.)");
 }
 
 }  // namespace airlight::paper_000
