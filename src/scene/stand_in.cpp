@@ -59,6 +59,10 @@ Bounds room_around(const Panorama& panorama, const Bounds& all) {
   for (Vec* corner : {&room.min, &room.max})
     *corner = {inside(corner->x, all.min.x, all.max.x), inside(corner->y, all.min.y, all.max.y),
                inside(corner->z, all.min.z, all.max.z)};
+  // Floor and ceiling lie at steep angles, where few directions look.
+  const double near = 0.3 * room.size().y;
+  if (room.min.y - all.min.y < near) room.min.y = all.min.y;
+  if (all.max.y - room.max.y < near) room.max.y = all.max.y;
   return room;
 }
 
