@@ -140,15 +140,15 @@ double Panorama::inside_out() const {
 }
 
 double Panorama::free_way(Vec3<double> toward) const {
-  constexpr double narrow = 0.9;  // cosine: a few directions are within
+  constexpr double in_view = 0.8;  // cosine: about what a picture shows
   const double far = length(toward);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (dot(direction(i), toward) < narrow * far) continue;
-    sum += std::min(double(distance[i]), far);
+    if (dot(direction(i), toward) < in_view * far) continue;
+    sum += 1 / std::min(double(distance[i]), far);
     ++count;
   }
-  return count > 0 ? sum / count : far;
+  return count > 0 ? count / sum : far;
 }
 
 std::vector<Panorama> look_around(const std::vector<Object>& objects,

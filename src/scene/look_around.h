@@ -32,7 +32,8 @@ struct Panorama {
   double enclosed() const;
   /// The part of the directions in which the back of a surface is seen: much of it inside solids.
   double inside_out() const;
-  /// How far one gets about there before something is in the way, on average.  [m]
+  /// How far one gets about there before something is in the way: a harmonic mean, for what is near
+  /// hides the most; at most as far as asked.  [m]
   double free_way(Vec3<double> toward) const;
 };
 
