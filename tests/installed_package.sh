@@ -17,10 +17,23 @@ build_with_package() {
 }
 
 build_with_package "$examples" "$work/examples" "$@"
+# Example → its arguments, and what it must print: a regular expression for some line.
+declare -A arguments=([load_and_render]="scenes/cube_of_fog.toml")
+declare -A prints=(
+  [closed_form_box]='^unshadowed +closed form +0\.170690 '
+  [load_and_render]='^pixel 32,32: 0\.02342 0\.02342 0\.02342 '  # the value that the scene states
+  [print_version]='^Airlight [0-9]+\.[0-9]+\.[0-9]+$'
+)
 for source in "$examples"/*.cpp; do
   example=$(basename "$source" .cpp)
   echo "== $example"
-  (cd "$examples/.." && "$work/examples/$example")
+  # shellcheck disable=SC2086  # arguments are words
+  output=$(cd "$examples/.." && "$work/examples/$example" ${arguments[$example]:-})
+  echo "$output"
+  grep -Eq "${prints[$example]}" <<<"$output" || {
+    echo "-- expected a line like ${prints[$example]}"
+    exit 1
+  }
 done
 
 # Every installed header compiles alone: the core's with nothing but airlight::core.

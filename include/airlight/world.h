@@ -16,4 +16,31 @@ concept AnswersVisibility = requires(const W world, Vec3<F> v, F t, Mask<F> acti
   { world.transmit(v, v, t, 0, active) } -> std::same_as<Rgb<F>>;
 };
 
+/// A world in which nothing stands in the way of light.
+struct Unshadowed {
+  template <class F>
+  Rgb<F> transmit(Vec3<F>, Vec3<F>, F, int, Mask<F>) const noexcept {
+    return Rgb<F>(F(1));
+  }
+  /// Where the camera ray is lit, for the closed form: everywhere.
+  template <class Sink>
+  void lit(Vec3<double>, Vec3<double>, double t_max, int, Sink&& sink) const noexcept {
+    sink(0, t_max);
+  }
+};
+
+/// A world made of a function: `visible(from, direction, t_max)` is what passes along a segment, a
+/// number in [0, 1] or a colour of such.
+///
+///     const VisibleBy above_ground{[](auto from, auto direction, auto t_max) { … }};
+template <class Function>
+struct VisibleBy {
+  Function visible;
+
+  template <class F>
+  Rgb<F> transmit(Vec3<F> from, Vec3<F> direction, F t_max, int, Mask<F>) const noexcept {
+    return Rgb<F>(visible(from, direction, t_max));
+  }
+};
+
 }  // namespace airlight::inline AIRLIGHT_ISA
