@@ -1,6 +1,7 @@
 #include "scene/reference.h"
 
 #include <algorithm>
+#include <concepts>
 
 #include "scene/scene_document.h"
 
@@ -41,6 +42,15 @@ std::string cell(const std::string& text) {
   return escaped;
 }
 
+/// The kinds of objects that say themselves what they look like.
+std::string unsurfaced_objects() {
+  std::vector<std::string> names;
+  for_each_member<Objects>([&]<class Kind>(const Kind&) {
+    if constexpr (!std::derived_from<Kind, SurfacedObject>) names.push_back(Kind::name);
+  });
+  return accepted_words(std::move(names));
+}
+
 }  // namespace
 
 std::vector<Chapter> scene_reference() {
@@ -60,8 +70,10 @@ std::vector<Chapter> scene_reference() {
       {"Phase functions", "phase of a medium, told apart by type.", members_of<Phases>()},
       {"Shapes", "shape of a medium, told apart by type.", members_of<ShapeDocuments>()},
       {"Objects",
-       "[[objects]], told apart by type. All take the keys of place; all but rose_window "
-       "and tree, which have colours of their own, take the keys of surface.",
+       fmt::format(
+           "[[objects]], told apart by type. All take the keys of place; all but those with "
+           "colours of their own ({}) take the keys of surface.",
+           unsurfaced_objects()),
        members_of<Objects>()},
       {"Keys of objects",
        "What objects have in common.",
