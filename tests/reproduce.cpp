@@ -116,6 +116,25 @@ TEST(Reproduce, asks_for_a_folder_that_can_be_made) {
   EXPECT_EQ(bytes_of(folder / "file"), "in the way");
 }
 
+TEST(Reproduction, shows_a_value_that_left_its_range) {
+  const Reproduction lost{"000/lost", "Lost", "Nothing.", [](Reproduced& out) {
+                            out.rows = {{"kept", 2, 2.1, 1.9, 2.2}, {"lost", {}, 3, 1, 2}};
+                            out.page.checks(out.rows);
+                          }};
+  const Folder folder;
+  const std::vector<Row> rows = reproduce(lost, folder / "deep/out");
+  ASSERT_THAT(rows, SizeIs(2));
+  EXPECT_TRUE(rows[0].holds());
+  EXPECT_FALSE(rows[1].holds());
+  EXPECT_THAT(bytes_of(folder / "deep/out/index.html"), HasSubstr("✗ fails"));
+  const auto written = nlohmann::json::parse(bytes_of(folder / "deep/out/result.json"));
+  EXPECT_EQ(
+      written[0],
+      (nlohmann::json{
+          {"label", "kept"}, {"published", 2}, {"measured", 2.1}, {"low", 1.9}, {"high", 2.2}}));
+  EXPECT_TRUE(written[1]["published"].is_null());
+}
+
 TEST(Reproduction, has_a_name_and_words_of_its_own) {
   std::set<std::string> names, titles;
   for (const Reproduction& r : reproductions()) {

@@ -16,7 +16,7 @@ void fig4(Reproduced& out) {
   out.page.checks(
       out.rows,
       "The paper shows the agreement and prints no numbers. All counts are of 256 bins. A p "
-      "below 1e-4 would mean that the samples do not follow the density. The ends of a "
+      "below 0.0001 would mean that the samples do not follow the density. The ends of a "
       "bin cut two strata at most, so no count of stratified samples can be off by "
       "more than 2.");
 }
