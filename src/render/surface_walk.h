@@ -41,7 +41,6 @@ class SurfaceWalk {
       const Crossing at = crossing(hit, bits<F>(found), direction);
       radiance = select(found, radiance + dim * shade(at, origin, direction, hit.t, index, found),
                         radiance);
-      through = select(found, dim * at.filter, through);
       if (first) {
         albedo = select(found, at.albedo, albedo);
         normal = select(found, at.normal, normal);
@@ -52,6 +51,7 @@ class SurfaceWalk {
       const Mask<F> passes = found & ((at.filter.r + at.filter.g + at.filter.b) > F(0));
       t_end = select(found & !passes, hit.t, t_end);
       filter = select(passes, filter * at.filter, filter);
+      through = select(passes, dim * at.filter, through);
       filtered = filtered || any(passes);
       t = hit.t;
       active = passes;
@@ -116,13 +116,14 @@ class SurfaceWalk {
     const Vec3<F> from = p + at.geometric * lift;
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
       std::visit(
-          [&](const auto& light) { light_in += irradiance(light, i, at, from, index, found); },
+          [&](const auto& light) { light_in += irradiance(light, i, at, p, from, index, found); },
           frame_.scene.lights[std::size_t(i)]);
     return at.albedo * light_in * F(1 / pi);
   }
 
-  Rgb<F> irradiance(const Directional& light, int light_index, const Crossing& at, Vec3<F> from,
-                    std::uint32_t index, Mask<F> found) const noexcept {
+  /// Of light at the point p, whose shadow rays start at `from`.  [W/m²]
+  Rgb<F> irradiance(const Directional& light, int light_index, const Crossing& at, Vec3<F> p,
+                    Vec3<F> from, std::uint32_t index, Mask<F> found) const noexcept {
     const std::uint32_t count = light.angular_diameter > 0 ? frame_.surface_samples : 1;
     Rgb<F> sum;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -135,7 +136,7 @@ class SurfaceWalk {
       if (!any(faces)) continue;
       Rgb<F> arriving = frame_.world.transmit(from, w, F(far_away), light_index, faces) * cosine;
       if (medium_) {
-        const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(from), space_.vector(w)});
+        const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(p), space_.vector(w)});
         arriving *= extinguished(max(chord.t_exit - chord.t_enter, F(0)));
       }
       sum = select(faces, sum + arriving, sum);
