@@ -1,16 +1,11 @@
 #include "scene/objects/keys.h"
 
 #include "error.h"
+#include "scene/models/transparent_texels.h"
 #include "scene/rotation.h"
 
 namespace airlight {
 namespace {
-
-bool has_alpha(const Texture& texture) {
-  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
-    if (texture.rgba[i] != 255) return true;
-  return false;
-}
 
 /// Adds a picture to the parts' textures; returns its index.
 int add_texture(Parts& parts, const std::string& file, const Cursor& at,
@@ -65,7 +60,8 @@ void SurfacedObject::paint(Parts& parts, const Cursor& at,
     if (opacity) material.opacity = *opacity;
     if (opacity_index) {
       material.opacity_texture = *opacity_index;
-      material.opacity_from_alpha = has_alpha(parts.textures[std::size_t(*opacity_index)]);
+      material.opacity_from_alpha =
+          has_transparent_texels(parts.textures[std::size_t(*opacity_index)]);
     }
     if (cutoff) material.cutoff = *cutoff;
     if (tint) material.tint = *tint;
