@@ -71,6 +71,7 @@ TEST(Probe, has_the_radiance_of_the_renderers_pixel) {
       {"render.estimator=mix+difference", "render.spp=12", "render.samples_per_ray=8"},
       {"render.estimator=rm", "render.edges=per_step", "media.0.sigma_t=1"},
       {"render.first_sample=6", "render.spp=7"},
+      {"render.estimator=closed_form", "objects.0.opacity=1", "lights.1.angular_diameter=0"},
       {"media.0.shape={type=\"convex\", points=[[-1,-1,-1],[1,-1,-1],[0,1,0],[0,-1,1]]}"},
   };
   for (const auto& changes : variants) {

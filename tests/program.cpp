@@ -98,11 +98,11 @@ TEST(Program, helps_with_every_verb_and_shows_examples) {
   const Outcome all = run({"--help"});
   EXPECT_EQ(all.status, 0);
   EXPECT_EQ(all.err, "");
-  for (const std::string verb : {"render", "probe", "info"}) {
+  for (const std::string verb : {"render", "probe", "info", "compare", "list", "reproduce"}) {
     EXPECT_THAT(all.out, HasSubstr("  " + verb + " "));
     const Outcome one = run({verb, "--help"});
     EXPECT_EQ(one.status, 0);
-    EXPECT_THAT(one.out, HasSubstr("Examples:\n  airlight " + verb + " "));
+    EXPECT_THAT(one.out, HasSubstr("Examples:\n  airlight " + verb));
   }
 }
 
@@ -198,6 +198,13 @@ TEST(Program, says_when_the_disk_is_full) {
   const Desk desk;
   std::filesystem::create_symlink("/dev/full", desk / "out.png");
   expect_one_line(desk.render("out.png"), 2, "No space left");
+}
+
+TEST(Program, says_when_what_it_prints_is_lost) {
+  const Desk desk;
+  const Outcome outcome = run(
+      {"info", desk.scene}, {.before = [] { dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); }});
+  expect_one_line(outcome, 2, "No space left");
 }
 
 TEST(Program, keeps_the_old_file_when_the_new_one_may_not_grow) {

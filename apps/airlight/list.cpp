@@ -35,6 +35,7 @@ std::vector<Chapter> reference() {
 
 Action set_up_list(CLI::App& verb) {
   const auto markdown = std::make_shared<bool>(false);
+  verb.footer("Examples:\n  airlight list\n  airlight list --markdown\n");
   verb.add_flag("--markdown", *markdown, "as a page: what docs/scene-reference.md holds");
   return [markdown] {
     const std::vector<Chapter> chapters = reference();

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "arguments.h"
@@ -67,7 +69,12 @@ int run(int argc, char** argv) {
     throw Error(complaint(app, error));
   }
   for (std::size_t i = 0; i < std::size(verbs); ++i)
-    if (app.got_subcommand(verbs[i].name)) return actions[i]();
+    if (app.got_subcommand(verbs[i].name)) {
+      const int status = actions[i]();
+      if (std::fflush(stdout) != 0)
+        throw Error(fmt::format("what was printed cannot be written: {}", std::strerror(errno)));
+      return status;
+    }
   return failed;
 }
 
