@@ -40,10 +40,14 @@ Film::Film(Resolution full_, PixelRect crop_)
     : full(full_), crop(crop_), pixels(std::size_t(crop_.width) * std::size_t(crop_.height)) {}
 
 void Film::merge(const Film& other) {
-  if (other.crop.width != crop.width || other.crop.height != crop.height)
-    throw Error(fmt::format(
-        "pictures of {} x {} and {} x {} pixels cannot be merged; accepted: the same size",
-        crop.width, crop.height, other.crop.width, other.crop.height));
+  const auto place = [](const Film& film) {
+    return fmt::format("{} x {} pixels at {},{} of {} x {}", film.crop.width, film.crop.height,
+                       film.crop.x0, film.crop.y0, film.full.width, film.full.height);
+  };
+  if (place(*this) != place(other))
+    throw Error(
+        fmt::format("{} and {} cannot be merged; accepted: the same part of the same picture",
+                    place(*this), place(other)));
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(other.pixels[i]);
 }
 

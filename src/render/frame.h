@@ -25,8 +25,8 @@ struct Frame {
   PixelFilter filter = PixelFilter::tent;
   bool through_centre = false;        ///< every sample of a pixel shares the ray through its centre
   std::uint32_t samples_per_ray = 1;  ///< counts where they do not
-  std::uint32_t surface_samples =
-      1;  ///< shadow rays of a surface towards a light with a disc, a camera ray
+  std::uint32_t samples_per_surface_ray =
+      1;  ///< samples of a camera ray that share a surface's shadow ray to a light with a disc
   std::uint32_t seed = 0;
   std::vector<ParallelShadows> shadows;  ///< one a light, for the exact estimator only
 };

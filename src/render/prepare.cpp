@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -111,8 +112,7 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   frame.through_centre = settings.samples_per_ray == 0 ||
                          (!settings.first_sample && settings.spp <= settings.samples_per_ray);
   frame.samples_per_ray = std::uint32_t(std::max<std::int64_t>(settings.samples_per_ray, 1));
-  const std::int64_t sharing = frame.through_centre ? settings.spp : settings.samples_per_ray;
-  frame.surface_samples = std::uint32_t(std::clamp<std::int64_t>(sharing / 4, 1, 64));
+  frame.samples_per_surface_ray = frame.through_centre ? 4 : std::min(frame.samples_per_ray, 4u);
   frame.seed = std::uint32_t(settings.seed);
   return {frame,
           kernel_of(estimator, settings.isa),

@@ -21,7 +21,7 @@ class SurfaceWalk {
   F depth{F(0)}, object{F(0)};
   bool filtered = false;  ///< whether any lane crosses something that lets light through
 
-  void along(Vec3<F> origin, Vec3<F> direction, Interval<F> inside, std::uint32_t index,
+  void along(Vec3<F> origin, Vec3<F> direction, Interval<F> inside, SampleRange samples,
              Mask<F> active) noexcept {
     F t(0);
     bool first = true;
@@ -39,7 +39,7 @@ class SurfaceWalk {
       if (!any(found)) break;
 
       const Crossing at = crossing(hit, bits<F>(found), direction);
-      radiance = select(found, radiance + dim * shade(at, origin, direction, hit.t, index, found),
+      radiance = select(found, radiance + dim * shade(at, origin, direction, hit.t, samples, found),
                         radiance);
       if (first) {
         albedo = select(found, at.albedo, albedo);
@@ -106,7 +106,7 @@ class SurfaceWalk {
 
   /// Diffuse reflection of every light and of the ambient radiance, towards the camera; the medium
   /// dims light on its way in (Velinov 2021 Eq. 1 with a Lambertian surface).  [W/(m² sr)]
-  Rgb<F> shade(const Crossing& at, Vec3<F> origin, Vec3<F> direction, F t, std::uint32_t index,
+  Rgb<F> shade(const Crossing& at, Vec3<F> origin, Vec3<F> direction, F t, SampleRange samples,
                Mask<F> found) const noexcept {
     Rgb<F> light_in = Rgb<F>(frame_.scene.ambient) * F(pi);
     const Vec3<F> p = origin + direction * t;
@@ -116,32 +116,44 @@ class SurfaceWalk {
     const Vec3<F> from = p + at.geometric * lift;
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
       std::visit(
-          [&](const auto& light) { light_in += irradiance(light, i, at, p, from, index, found); },
+          [&](const auto& light) { light_in += irradiance(light, i, at, p, from, samples, found); },
           frame_.scene.lights[std::size_t(i)]);
     return at.albedo * light_in * F(1 / pi);
   }
 
-  /// Of light at the point p, whose shadow rays start at `from`.  [W/m²]
+  /// Of light at the point p, whose shadow rays start at `from`: the mean over the samples of the
+  /// camera ray. Directions to a disc belong to samples by their numbers, so that ranges of samples
+  /// add up to the whole.  [W/m²]
   Rgb<F> irradiance(const Directional& light, int light_index, const Crossing& at, Vec3<F> p,
-                    Vec3<F> from, std::uint32_t index, Mask<F> found) const noexcept {
-    const std::uint32_t count = light.angular_diameter > 0 ? frame_.surface_samples : 1;
+                    Vec3<F> from, SampleRange samples, Mask<F> found) const noexcept {
+    if (!(light.angular_diameter > 0))
+      return arriving(Vec3<F>(light.toward()), light_index, at, p, from, found) *
+             Rgb<F>(light.irradiance);
     Rgb<F> sum;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      Vec3<F> w(light.toward());
-      if (light.angular_diameter > 0)
-        w = uniform_cap(w, F(Scalar<F>(light.cap_height())),
-                        sampler_.two(index * count + i, stream::surface(light_index)));
-      const F cosine = max(dot(at.normal, w), F(0));
-      const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
-      if (!any(faces)) continue;
-      Rgb<F> arriving = frame_.world.transmit(from, w, F(far_away), light_index, faces) * cosine;
-      if (medium_) {
-        const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(p), space_.vector(w)});
-        arriving *= extinguished(max(chord.t_exit - chord.t_enter, F(0)));
-      }
-      sum = select(faces, sum + arriving, sum);
+    const std::uint32_t end = samples.first + samples.count;
+    for (std::uint32_t i = samples.first; i < end;) {
+      const std::uint32_t index = i / frame_.samples_per_surface_ray;
+      const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_surface_ray);
+      const Vec3<F> w = uniform_cap(Vec3<F>(light.toward()), F(Scalar<F>(light.cap_height())),
+                                    sampler_.two(index, stream::surface(light_index)));
+      sum += arriving(w, light_index, at, p, from, found) * F(Scalar<F>(stop - i));
+      i = stop;
     }
-    return sum * Rgb<F>(light.irradiance) * F(Scalar<F>(1. / count));
+    return sum * Rgb<F>(light.irradiance) * F(Scalar<F>(1. / samples.count));
+  }
+
+  /// The part of the light from w that the surface receives: cosine, shadows, fog.
+  Rgb<F> arriving(Vec3<F> w, int light_index, const Crossing& at, Vec3<F> p, Vec3<F> from,
+                  Mask<F> found) const noexcept {
+    const F cosine = max(dot(at.normal, w), F(0));
+    const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
+    if (!any(faces)) return {};
+    Rgb<F> part = frame_.world.transmit(from, w, F(far_away), light_index, faces) * cosine;
+    if (medium_) {
+      const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(p), space_.vector(w)});
+      part *= extinguished(max(chord.t_exit - chord.t_enter, F(0)));
+    }
+    return select(faces, part, Rgb<F>());
   }
 
   /// e^{−σ length}.

@@ -157,7 +157,7 @@ class TileKernel {
     }
 
     SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler);
-    walk.along(origin, direction, inside, index, active);
+    walk.along(origin, direction, inside, samples, active);
     watcher_.camera_ray(walk, direction, inside, samples);
 
     const F n(Scalar<F>(samples.count));
