@@ -121,7 +121,7 @@ class BruteForce {
 
   /// Light scattered once by the fog from parallel light that comes from `toward`.
   Colour in_scatter(const CameraRay& ray, const Directional& sun, const Vector& toward,
-                    bool with_shadows = true) const {
+                    bool with_shadows = true, int channels = 3) const {
     const Medium& medium = *scene_.medium;
     std::vector<double> breaks;
     for (const Sheet& sheet : sheets_) add_shadow_edges(sheet, ray, toward, breaks);
@@ -133,7 +133,13 @@ class BruteForce {
           const double way = depth_so_far + std::max(clip({p, toward}).second, 0.);
           return medium.sigma_s * sun.irradiance * light * exp_of(medium.sigma_t, way) * phase;
         },
-        with_shadows);
+        with_shadows, channels);
+  }
+
+  /// One channel of the same, for grey media: three times as fast.
+  double in_scatter_grey(const CameraRay& ray, const Directional& sun, const Vector& toward,
+                         bool with_shadows) const {
+    return in_scatter(ray, sun, toward, with_shadows, 1).r;
   }
 
   /// The same of every light.
@@ -247,13 +253,13 @@ class BruteForce {
   /// part of a camera ray in the fog, to 1e-9.
   template <class Function>
   Colour along(const CameraRay& ray, std::vector<double> breaks, Function&& f,
-               bool with_sheets = true) const {
+               bool with_sheets = true, int channels = 3) const {
     const auto [enter, leave] = clip(ray);
     if (!(leave > enter)) return {};
     if (with_sheets)
       for (const auto& [t, sheet] : crossings(ray)) breaks.push_back(t);
     Colour result;
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < channels; ++c)
       result[c] = integrate(
           enter, end_of(ray, leave),
           [&, from = enter](double t) {
