@@ -79,7 +79,7 @@ Film render(const Scene& scene, const Kernel& kernel, const std::string& what) {
 }
 
 struct Agreement {
-  double median = 0;   ///< relative difference of a pixel's channel
+  double most = 0;     ///< relative difference that nine tenths of all channels stay below
   double apart = 0;    ///< the part of all that differs by more than 1e-4
   double picture = 0;  ///< relative difference of the mean
 };
@@ -96,7 +96,7 @@ Agreement compare(const Film& film, const Film& reference) {
     }
   std::ranges::sort(differences);
   Agreement result;
-  result.median = differences[differences.size() / 2];
+  result.most = differences[differences.size() * 9 / 10];
   result.apart = double(std::ranges::count_if(differences, [](double d) { return d > 1e-4; })) /
                  double(differences.size());
   for (int c = 0; c < 3; ++c)
@@ -105,12 +105,13 @@ Agreement compare(const Film& film, const Film& reference) {
 }
 
 struct Limits {
-  double median = 3e-6;
-  double apart = 0.02;  // a shadow ray of sixteen that falls on the other side of an edge
-  double picture = 2e-4;
+  double most = 3e-6;
+  double apart = 0.004;  // a shadow ray may fall on the other side of an edge in one pixel of 250
+  double picture = 2e-5;
 };
 
 void expect_agreement(const Scene& scene, const std::string& what, const Limits& limits = {}) {
+  Agreement worst;
   for (const char* estimator : {"rewv", "mcwvds", "rm", "distance+difference", "mix+ratio"}) {
     Scene variant = scene;
     variant.render.estimator = estimator;
@@ -119,11 +120,15 @@ void expect_agreement(const Scene& scene, const std::string& what, const Limits&
     for (std::size_t i = 1; i < kernels.size(); ++i) {
       const std::string where = what + ", " + estimator + ", " + kernels[i]->name;
       const Agreement a = compare(render(variant, *kernels[i], what), reference);
-      EXPECT_LT(a.median, limits.median) << where;
+      EXPECT_LT(a.most, limits.most) << where;
       EXPECT_LE(a.apart, limits.apart) << where;
       EXPECT_LT(a.picture, limits.picture) << where;
+      worst = {std::max(worst.most, a.most), std::max(worst.apart, a.apart),
+               std::max(worst.picture, a.picture)};
     }
   }
+  std::printf("%s: nine tenths within %.1e, %.1e beyond 1e-4, picture %.1e\n", what.c_str(),
+              worst.most, worst.apart, worst.picture);
 }
 
 TEST(Arithmetics, agree_in_every_shape) {
@@ -150,29 +155,30 @@ TEST(Arithmetics, agree_in_rays_spread_over_pixels_and_discs) {
   Scene scene = fog_scene({0.3, 1, 3});
   scene.lights = {sun({0.4, 1, 0.3}, 0.53), sun({-0.8, 0.7, 0.4}, 3)};
   scene.render.samples_per_ray = 4;
-  // More rays and directions a pixel, more of them near an edge.
-  expect_agreement(scene, "discs", {.apart = 0.08});
+  expect_agreement(scene, "discs",
+                   {.apart = 0.01});  // more directions a pixel, more of them near an edge
   for (PixelFilter filter : {PixelFilter::box, PixelFilter::gaussian}) {
     scene.lights = {sun({0.4, 1, 0.3})};
     scene.render.filter = filter;
-    expect_agreement(scene, "filter", {.apart = 0.08});
+    expect_agreement(scene, "filter", {.apart = 0.01});
   }
 }
 
 TEST(Arithmetics, agree_in_thin_fog_and_dense) {
   expect_agreement(fog_scene(Colour(1e-4)), "thin");
   expect_agreement(fog_scene({1e-4, 1e-3, 1e-2}), "thin, RGB");
-  // An optical depth of 200 is known to 200 roundings: 1e-5 is the order of what exp makes of it.
-  expect_agreement(fog_scene(Colour(100.)), "dense", {.median = 1e-4, .apart = 0.3});
-  expect_agreement(fog_scene({50, 100, 150}), "dense, RGB", {.median = 1e-4, .apart = 0.3});
+  // A float knows an optical depth of 300 to 4e-5, and so much of what passes; in blue, 450.
+  expect_agreement(fog_scene(Colour(100.)), "dense", {.most = 2e-4, .apart = 0.1});
+  expect_agreement(fog_scene({50, 100, 150}), "dense, RGB", {.most = 2e-4, .apart = 0.1});
 }
 
 TEST(Arithmetics, agree_from_a_kilometre_away) {
   Scene scene = fog_scene({0.3, 1, 3});
   const Vector away = normalize(Vector(0.7, 0.9, 3.7));
   scene.camera = {.position = away * 1000, .target = {0, -0.1, 0}, .fov = 0.15};
-  // Floats of a thousand metres are 6e-5 m apart, and so are hits and entries: 1e-4 of the way.
-  expect_agreement(scene, "far away", {.median = 1e-4, .apart = 0.3, .picture = 1e-3});
+  // Floats of a thousand metres are 6e-5 m apart, and so are hits and entries; times sigma = 3 that
+  // is 2e-4 of what passes.
+  expect_agreement(scene, "far away", {.most = 3e-4, .apart = 0.15, .picture = 2e-4});
 }
 
 /// Where things coincide: nothing to compare with but every other arithmetic.
