@@ -29,6 +29,36 @@ struct MediumRay {
   bool filtered = false;    ///< whether glass or cut-outs may stand between the camera and t_max
 };
 
+/// A packet of rays from the camera to where something opaque ends them.
+template <Real F>
+struct CameraRay {
+  Vec3<F> origin;         ///< [m]
+  Vec3<F> direction;      ///< unit length
+  F t_max = F(far_away);  ///< to the surface; far away without one  [m]
+};
+
+/// The part of a camera ray that lies in a shape: from the ray in the shape's coordinates and the
+/// interval inside. Lanes that miss the shape get a section of no length, from a point where
+/// nothing overflows.
+template <Real F>
+MediumRay<F> medium_ray(const CameraRay<F>& ray, const LocalRay<F>& local,
+                        const Interval<F>& inside) noexcept {
+  const F t_max = max(min(ray.t_max, inside.t_exit) - inside.t_enter, F(0));
+  const Mask<F> meets = t_max > F(0);
+  return {.origin = ray.origin,
+          .direction = ray.direction,
+          .entry = {select(meets, local(inside.t_enter), Vec3<F>()), local.d},
+          .t_enter = select(meets, inside.t_enter, F(0)),
+          .t_max = t_max,
+          .active = meets};
+}
+
+template <Real F, class Space>
+MediumRay<F> medium_ray(const CameraRay<F>& ray, const Space& space) noexcept {
+  const LocalRay<F> local{space.point(ray.origin), space.vector(ray.direction)};
+  return medium_ray(ray, local, space.clip(local));
+}
+
 /// The streams of random numbers a pixel has; each light has its own.
 namespace stream {
 inline constexpr std::uint32_t camera = 0;

@@ -179,19 +179,11 @@ class TileKernel {
         }
 
     if (!medium_) return;
-    MediumRay<F> ray;
-    ray.origin = origin, ray.direction = direction;
-    ray.entry = {local(inside.t_enter), local.d};
-    ray.t_enter = inside.t_enter;
-    ray.t_max = max(min(walk.t_end, inside.t_exit) - inside.t_enter, F(0));
-    ray.active = active & (ray.t_max > F(0));
+    MediumRay<F> ray = medium_ray({origin, direction, walk.t_end}, local, inside);
+    ray.active = active & ray.active;
     ray.index = index;
     ray.filtered = walk.filtered;
     if (!any(ray.active)) return;
-    // Lanes that miss the medium run along with a section of no length, from a point where nothing
-    // overflows.
-    ray.entry.o = select(ray.active, ray.entry.o, Vec3<F>());
-    ray.t_enter = select(ray.active, ray.t_enter, F(0));
     watcher_.medium_ray(ray);
 
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
