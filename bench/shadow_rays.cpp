@@ -13,9 +13,8 @@
 namespace airlight::bench {
 namespace {
 
-/// Shadow rays as the kernels ask for them, written down on the way to the real world.
+/// Shadow rays as an estimator asks for them, written down.
 struct Recorder {
-  const World& world;
   mutable std::vector<std::array<float, 6>> rays;
 
   Rgb<float> transmit(Vec3<float> from, Vec3<float> to, float, int, bool active) const {
@@ -44,8 +43,10 @@ struct Packets<16> {
   }
 };
 
-/// The in-scatter shadow rays of a picture with one ray through each pixel's centre, in the packets
-/// of a kernel of this width: a block of pixels, the same sample in each.
+using ShadowRay = std::array<float, 6>;  ///< origin and direction; a direction of 0 is none
+
+/// The shadow rays of a picture with one camera ray through each pixel's centre, in the packets of
+/// a kernel of this width: a block of pixels, the same sample of each, first those of its surfaces.
 template <int width>
 struct PictureOfRays {
   struct alignas(64) Packet {
@@ -53,56 +54,79 @@ struct PictureOfRays {
     alignas(64) int valid[width];
   };
   std::vector<Packet> packets;
-  std::size_t count = 0;
 
   PictureOfRays(const Scene& scene, const World& world, const RenderSettings& settings) {
     const Prepared prepared = prepare(scene, world, settings);
-    const Medium& medium = *scene.medium;
-    const auto& space = std::get<Box>(medium.shape).space();
-    const auto& sampled = std::get<Sampled>(prepared.frame.estimator);
-    const auto& sun = std::get<Directional>(scene.lights.at(0));
-    const CameraFrame& camera = prepared.frame.camera;
     constexpr int block_height = width >= 16 ? 4 : 2, block_width = width / block_height;
-    const int spp = int(settings.spp);
-    std::vector<std::vector<std::array<float, 6>>> lanes(width);
     for (int y0 = 0; y0 < scene.resolution.height; y0 += block_height)
       for (int x0 = 0; x0 < scene.resolution.width; x0 += block_width) {
-        for (int i = 0; i < width; ++i) {
-          const int x = x0 + i % block_width, y = y0 + i / block_width;
-          const Vec3<float> origin(camera.position);
-          const Vec3<float> direction = normalize(
-              Vec3<float>(camera.corner + camera.right * (x + 0.5) + camera.down * (y + 0.5)));
-          MediumRay<float> ray;
-          ray.origin = origin, ray.direction = direction;
-          LocalRay<float> local{Vec3<float>(space.point(camera.position)), space.vector(direction)};
-          const Interval<float> inside = space.clip(local);
-          const Hit<float> hit = world.closest<float>(origin, direction, 0, true);
-          ray.t_enter = inside.t_enter;
-          ray.entry = {local(inside.t_enter), local.d};
-          ray.t_max = std::max(std::min(hit.t, inside.t_exit) - inside.t_enter, 0.f);
-          ray.active = ray.t_max > 0;
-          Recorder recorder{world, {}};
-          Halves<float> sums;
-          sampled.add<1>(
-              medium, space, sun, 0, ray, prepared.samples, false,
-              Sampler<float>{pixel_hash(prepared.frame.seed, std::uint32_t(x), std::uint32_t(y))},
-              recorder, sums);
-          lanes[std::size_t(i)] = std::move(recorder.rays);
-        }
-        for (int s = 0; s < spp; ++s) {
-          Packet& packet = packets.emplace_back();
-          for (int i = 0; i < width; ++i) {
-            const auto& r = lanes[std::size_t(i)][std::size_t(s)];
-            const bool active = r[3] != 0 || r[4] != 0 || r[5] != 0;
-            packet.valid[i] = active ? -1 : 0;
-            count += active;
-            packet.ray.org_x[i] = r[0], packet.ray.org_y[i] = r[1], packet.ray.org_z[i] = r[2];
-            packet.ray.dir_x[i] = r[3], packet.ray.dir_y[i] = r[4], packet.ray.dir_z[i] = r[5];
-            packet.ray.tnear[i] = 0, packet.ray.tfar[i] = 1e18f, packet.ray.time[i] = 0;
-            packet.ray.mask[i] = ~0u, packet.ray.flags[i] = 0, packet.ray.id[i] = unsigned(i);
-          }
-        }
+        std::array<std::vector<ShadowRay>, width> lanes;
+        for (int i = 0; i < width; ++i)
+          lanes[std::size_t(i)] =
+              rays_of_pixel(prepared, x0 + i % block_width, y0 + i / block_width);
+        for (std::size_t s = 0; s < lanes[0].size(); ++s) add_packet(lanes, s);
       }
+  }
+
+  /// What the renderer asks for a pixel, in its order.
+  static std::vector<ShadowRay> rays_of_pixel(const Prepared& prepared, int x, int y) {
+    const Frame& frame = prepared.frame;
+    const Medium& medium = *frame.scene.medium;
+    const Box::Space space = std::get<Box>(medium.shape).space();
+    const auto& sun = std::get<Directional>(frame.scene.lights.at(0));
+    const CameraFrame& camera = frame.camera;
+    const Sampler<float> sampler{pixel_hash(frame.seed, std::uint32_t(x), std::uint32_t(y))};
+
+    const Vec3<float> origin(camera.position);
+    const Vec3<float> direction =
+        normalize(Vec3<float>(camera.corner + camera.right * (x + 0.5) + camera.down * (y + 0.5)));
+    const Hit<float> hit = frame.world.closest<float>(origin, direction, 0, true);
+    Recorder recorder;
+
+    const std::uint32_t count = sun.angular_diameter > 0 ? frame.surface_samples : 1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Vec3<float> w = uniform_cap(Vec3<float>(sun.toward()), float(sun.cap_height()),
+                                        sampler.two(i, stream::surface(0)));
+      bool faces = false;
+      Vec3<float> from = origin + direction * hit.t;
+      if (hit.found) {
+        Vec3<float> n = frame.world.surface(hit.object[0], hit.primitive[0], hit.u[0], hit.v[0])
+                            .geometric_normal;
+        if (dot(n, direction) > 0) n = -n;
+        faces = dot(n, w) > 0;
+        from = from + n * 1e-4f;
+      }
+      recorder.transmit(from, w, 0, 0, faces);
+    }
+
+    const LocalRay<float> local{Vec3<float>(space.point(camera.position)), space.vector(direction)};
+    const Interval<float> inside = space.clip(local);
+    MediumRay<float> ray;
+    ray.origin = origin, ray.direction = direction;
+    ray.t_enter = inside.t_enter;
+    ray.entry = {local(inside.t_enter), local.d};
+    ray.t_max = std::max(std::min(hit.t, inside.t_exit) - inside.t_enter, 0.f);
+    ray.active = ray.t_max > 0;
+    Halves<float> sums;
+    std::get<Sampled>(frame.estimator)
+        .add<3>(medium, space, sun, 0, ray, prepared.samples, false, sampler, recorder, sums);
+    return std::move(recorder.rays);
+  }
+
+  void add_packet(const std::array<std::vector<ShadowRay>, width>& lanes, std::size_t sample) {
+    Packet packet;
+    bool any = false;
+    for (int i = 0; i < width; ++i) {
+      const ShadowRay& r = lanes[std::size_t(i)][sample];
+      const bool active = r[3] != 0 || r[4] != 0 || r[5] != 0;
+      any |= active;
+      packet.valid[i] = active ? -1 : 0;
+      packet.ray.org_x[i] = r[0], packet.ray.org_y[i] = r[1], packet.ray.org_z[i] = r[2];
+      packet.ray.dir_x[i] = r[3], packet.ray.dir_y[i] = r[4], packet.ray.dir_z[i] = r[5];
+      packet.ray.tnear[i] = 0, packet.ray.tfar[i] = 1e18f, packet.ray.time[i] = 0;
+      packet.ray.mask[i] = ~0u, packet.ray.flags[i] = 0, packet.ray.id[i] = unsigned(i);
+    }
+    if (any) packets.push_back(packet);  // the renderer doesn't ask for nothing either
   }
 
   /// A bare loop over all packets. A query marks its ray by its end, so each packet is copied
@@ -110,7 +134,6 @@ struct PictureOfRays {
   void trace(RTCScene scene) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     std::size_t blocked = 0;
     for (const Packet& packet : packets) {
       typename Packets<width>::Ray ray = packet.ray;
@@ -122,13 +145,14 @@ struct PictureOfRays {
 };
 
 template <int width>
-void measure(const char* name, const Scene& scene, double bound, const Kernel& kernel,
+void measure(const char* name, Scene scene, double bound, const Kernel& kernel,
              std::vector<Row>& rows) {
+  scene.resolution = {320, 180};  // so that all rays fit into memory
   RenderSettings settings = scene.render;
   settings.estimator = "rewv";
   settings.isa = kernel.isa;
   settings.threads = 1;
-  settings.spp = 16;
+  settings.spp = 64;
   settings.samples_per_ray = 0;
   const FlushToZero flush;
   const World world(scene, Visibility::embree);

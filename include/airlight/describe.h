@@ -1,15 +1,17 @@
 #pragma once
-/// How a parameter is described, once: its key, its member, its unit, the values accepted and its meaning.
-/// The scene reader, its errors, `airlight list`, overrides by path and the reference page follow from it.
+/// How a parameter is described, once: its key, its member, its unit, the values accepted and its
+/// meaning. The scene reader, its errors, `airlight list`, overrides by path and the reference page
+/// follow from it.
 ///
 ///     template <class Visitor>
 ///     static constexpr void describe(Visitor&& field) {
 ///       field("g", &HenyeyGreenstein::g, unit::one, open(-1, 1), "mean cosine; ...");
 ///     }
 ///
-/// A member may be a number, an Rgb (one number stands for three equal ones), a Vec3, a bool, a string, an enum with
-/// `words`, a described struct, an optional or a vector of those, or a family (a std::variant of described structs,
-/// told apart in a file by the key "type"). Its default is the value of a default-constructed struct.
+/// A member may be a number, an Rgb (one number stands for three equal ones), a Vec3, a bool, a
+/// string, an enum with `words`, a described struct, an optional or a vector of those, or a family
+/// (a std::variant of described structs, told apart in a file by the key "type"). Its default is
+/// the value of a default-constructed struct.
 #include <limits>
 #include <span>
 
@@ -57,7 +59,8 @@ struct Word {
   const char* meaning;
 };
 
-/// The words of an enum: specialise as `template <> inline constexpr Word<Filter> words<Filter>[] = {...};`
+/// The words of an enum: specialise as `template <> inline constexpr Word<Filter> words<Filter>[] =
+/// {...};`
 template <class E>
 inline constexpr Word<E> words[] = {};
 

@@ -15,26 +15,33 @@ Channels<F, channels> chances(const Channels<F, channels>& carried) noexcept {
   return result;
 }
 
-/// Picks a channel by u and makes u uniform in [0, 1] again: one number serves both, and strata
-/// stay strata.
-template <Real F, int channels, class Draw>
-F draw_by_channel(const Channels<F, channels>& chance, F u, Draw&& draw) noexcept {
-  if constexpr (channels == 1)
-    return draw(0, u);
-  else {
-    F result(0), below(0);
-    Mask<F> open = u >= F(0);
-    for (int c = 0; c < channels; ++c) {
-      const F above = below + chance[c];
-      const Mask<F> here = c + 1 < channels ? open & (u < above) : open;
-      const F positive = select(chance[c] > F(0), chance[c], F(1));
-      result = select(here, draw(c, clamp((u - below) / positive, F(0), F(1))), result);
-      open = open & !here;
-      below = above;
+/// A channel drawn by u, lane by lane, and u made uniform in [0, 1] again: one number serves both,
+/// and strata stay strata.
+template <Real F, int channels>
+struct ChannelPick {
+  F u;
+  std::array<Mask<F>, channels> is;  ///< the last that holds is the channel drawn
+
+  ChannelPick(const Channels<F, channels>& chance, F u_) noexcept : u(u_) {
+    if constexpr (channels > 1) {
+      F below(0), begin(0), width = chance[0];
+      for (int c = 1; c < channels; ++c) {
+        below = below + chance[c - 1];
+        is[c] = (u_ >= below) & (chance[c] > F(0));
+        begin = select(is[c], below, begin);
+        width = select(is[c], chance[c], width);
+      }
+      u = clamp((u_ - begin) / select(width > F(0), width, F(1)), F(0), F(1));
     }
+  }
+
+  /// The value of the channel drawn.
+  F of(const Channels<F, channels>& values) const noexcept {
+    F result = values[0];
+    for (int c = 1; c < channels; ++c) result = select(is[c], values[c], result);
     return result;
   }
-}
+};
 
 /// Σ_j chance_j · density_j, and the weights e^{−σ_c length} / that: the one-sample balance
 /// heuristic over channels, by which the weight of channel c never exceeds its integral over its

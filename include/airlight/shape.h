@@ -4,7 +4,8 @@
 
 namespace airlight::inline AIRLIGHT_ISA {
 
-/// A ray in a shape's own coordinates, where its formulas are simple. t stays the distance in the world.
+/// A ray in a shape's own coordinates, where its formulas are simple. t stays the distance in the
+/// world.
 template <Real F>
 struct LocalRay {
   Vec3<F> o, d;
@@ -14,18 +15,20 @@ struct LocalRay {
   }
 };
 
-/// Components of the direction to the light below this, relative to its length, count as zero: the distance out through a face
-/// that is all but parallel to the light is ill-conditioned (error eps / component), while the exact effect on T is confined
-/// to where the ray is nearer than that to the face: below 3e-4 of t_max but for rays that glide along it.
+/// Components of the direction to the light below this, relative to its length, count as zero: the
+/// distance out through a face that is all but parallel to the light is ill-conditioned (error eps
+/// / component), while the exact effect on T is confined to where the ray is nearer than that to
+/// the face: below 3e-4 of t_max but for rays that glide along it.
 template <Real F>
 inline constexpr Scalar<F> parallel_below = Scalar<F>(std::same_as<F, double> ? 1e-12 : 1e-5);
 
-/// Where a medium is. A shape is plain numbers in world space; its `space()` is what a ray needs of it, once a frame:
+/// Where a medium is. A shape is plain numbers in world space; its `space()` is what a ray needs of
+/// it, once a frame:
 ///
 ///     space.point(p), space.vector(v)     world to local (affine)
 ///     space.clip(ray)                     the interval of t inside, not before the ray's origin
-///     space.outward(w)                    what is shared by all points when light comes from w (local)
-///     space.way_out(ray, outward, t_max)  the way out for a ray that starts inside
+///     space.outward(w)                    what is shared by all points when light comes from w
+///     (local) space.way_out(ray, outward, t_max)  the way out for a ray that starts inside
 ///     space.distance_out(p, outward)      from p along w to the boundary  [m]
 template <class S>
 concept Shape = requires(const S shape, LocalRay<double> ray, Vec3<double> v) {

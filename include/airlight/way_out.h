@@ -64,8 +64,9 @@ template <Real F, int max_segments>
 struct Trapezoids {
   F depth_at[max_segments + 1];  ///< optical depth at the nodes above `depth`, >= 0
   F integral[max_segments];      ///< of transmittance over a segment, relative to e^{−depth}  [m]
-  F total = F(0);                ///< their sum, in [0, t_max]  [m]
-  F depth = F(0);  ///< the smallest optical depth: the way is concave, so that of an end
+  F drop[max_segments];  ///< 1 − e^{−y}, y the difference of the depths of a segment's ends
+  F total = F(0);        ///< their sum, in [0, t_max]  [m]
+  F depth = F(0);        ///< the smallest optical depth: the way is concave, so that of an end
 
   Trapezoids() = default;
 
@@ -84,9 +85,11 @@ struct Trapezoids {
       const F y = abs(depth_at[i + 1] - depth_at[i]);
       const F high = max(transmittance[i], transmittance[i + 1]);
       const F low = min(transmittance[i], transmittance[i + 1]);
-      const F mean =
-          select(y < F(1), high * phi_below_one(min(y, F(1))), (high - low) / max(y, F(1)));
+      const Mask<F> shallow = y < F(1);
+      const F phi = phi_below_one(min(y, F(1)));
+      const F mean = select(shallow, high * phi, (high - low) / max(y, F(1)));
       integral[i] = (way.t[i + 1] - way.t[i]) * mean;
+      drop[i] = select(shallow, y * phi, F(1) - low / select(high > F(0), high, F(1)));
       total = total + integral[i];
     }
   }
@@ -102,12 +105,13 @@ struct Trapezoids {
     const F x = u * total;
     F below = F(0), seen = F(0);
     F t0 = way.t[0], t1 = way.t[1];
-    F depth0 = depth_at[0], depth1 = depth_at[1], here = integral[0];
+    F depth0 = depth_at[0], depth1 = depth_at[1], here = integral[0], fall = drop[0];
     for (int i = 1; i < max_segments && i < way.segments; ++i) {
       seen = seen + integral[i - 1];
       const Mask<F> beyond = (x >= seen) & (integral[i] > F(0));
       below = select(beyond, seen, below);
       here = select(beyond, integral[i], here);
+      fall = select(beyond, drop[i], fall);
       t0 = select(beyond, way.t[i], t0);
       t1 = select(beyond, way.t[i + 1], t1);
       depth0 = select(beyond, depth_at[i], depth0);
@@ -115,7 +119,8 @@ struct Trapezoids {
     }
     const F v = clamp((x - below) / select(here > F(0), here, F(1)), F(0), F(1));
     const Mask<F> rising = depth1 >= depth0;
-    const F from_low = exponential_fraction(abs(depth1 - depth0), select(rising, v, F(1) - v));
+    const F from_low =
+        exponential_fraction(abs(depth1 - depth0), fall, select(rising, v, F(1) - v));
     const F g = select(rising, from_low, F(1) - from_low);
     return clamp(fma(g, t1 - t0, t0), t0, t1);
   }

@@ -5,9 +5,10 @@ namespace airlight::inline AIRLIGHT_ISA {
 
 /// Light from far away: parallel, or from a disc of sky such as the sun's.
 struct Directional {
-  Rgb<double> irradiance{1, 1, 1};    ///< on a surface that faces the light, outside the medium  [W/m2]
-  Vec3<double> direction{0, -1, 0};   ///< of travel, unit length
-  double angular_diameter = 0;        ///< of the disc; 0 is parallel light  [degrees]
+  Rgb<double> irradiance{1, 1,
+                         1};  ///< on a surface that faces the light, outside the medium  [W/m2]
+  Vec3<double> direction{0, -1, 0};  ///< of travel, unit length
+  double angular_diameter = 0;       ///< of the disc; 0 is parallel light  [degrees]
 
   static constexpr auto name = "directional";
   static constexpr auto meaning = "light from far away: parallel, or from a disc such as the sun's";

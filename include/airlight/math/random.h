@@ -1,11 +1,13 @@
 #pragma once
-/// Owen-scrambled Sobol points by hashing (Burley 2020, with Vegdahl's 2021 constants): sample i of a pixel is point i of
-/// a sequence of its own, so that aligned blocks of a power of two are jittered strata, wherever a render was cut.
+/// Owen-scrambled Sobol points by hashing (Burley 2020, with Vegdahl's 2021 constants): sample i of
+/// a pixel is point i of a sequence of its own, so that aligned blocks of a power of two are
+/// jittered strata, wherever a render was cut.
 #include "vec.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
 
-/// A well mixed bijective hash of 32 bits (of the family of Wellons' lowbias32); U is std::uint32_t or a batch of them.
+/// A well mixed bijective hash of 32 bits (of the family of Wellons' lowbias32); U is std::uint32_t
+/// or a batch of them.
 template <class U>
 constexpr U mix_bits(U x) noexcept {
   x = x ^ (x >> 16);
@@ -24,8 +26,8 @@ U reverse_bits(U x) noexcept {
   return (x >> 16) | (x << 16);
 }
 
-/// Permutes so that a bit depends on the bits below it only (Laine and Karras 2011): between two reversals, that is an
-/// Owen scramble.
+/// Permutes so that a bit depends on the bits below it only (Laine and Karras 2011): between two
+/// reversals, that is an Owen scramble.
 template <class U>
 U laine_karras(U x, U seed) noexcept {
   x = x ^ (x * U(0x3d20adeau));
@@ -41,12 +43,16 @@ U owen_scramble(U x, U seed) noexcept {
   return reverse_bits(laine_karras(reverse_bits(x), seed));
 }
 
-/// The second Sobol dimension of an index, whose first is its bits reversed.
-constexpr std::uint32_t sobol_second(std::uint32_t index) noexcept {
-  std::uint32_t result = 0;
-  for (std::uint32_t v = 0x80000000u; index != 0; index >>= 1, v ^= v >> 1)
-    if (index & 1u) result ^= v;
-  return result;
+/// The second Sobol dimension of an index, its bits reversed; the first is the index itself,
+/// reversed. Its generator matrix is Pascal's triangle modulo 2, whose row k takes the bits j that
+/// contain k (Lucas): five steps.
+template <class U>
+constexpr U reversed_sobol_second(U index) noexcept {
+  index = index ^ ((index >> 1) & U(0x55555555u));
+  index = index ^ ((index >> 2) & U(0x33333333u));
+  index = index ^ ((index >> 4) & U(0x0f0f0f0fu));
+  index = index ^ ((index >> 8) & U(0x00ff00ffu));
+  return index ^ ((index >> 16) & U(0x0000ffffu));
 }
 
 template <Real F>
@@ -54,12 +60,14 @@ struct Vec2 {
   F x, y;
 };
 
-/// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are independent.
+/// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are
+/// independent.
 template <Real F>
 struct Sampler {
   UInt<F> pixel_hash;  ///< of (seed, pixel), a lane a pixel
 
-  /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in each interval of length 2^-k.
+  /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
+  /// each interval of length 2^-k.
   F one(std::uint32_t index, std::uint32_t stream) const noexcept {
     // reverse(index) is the van der Corput point; its scramble reverses it once more.
     return unit_interval<F>(reverse_bits(laine_karras(UInt<F>(index), mix_bits(hash(stream)))));
@@ -69,12 +77,11 @@ struct Sampler {
   Vec2<F> two(std::uint32_t index, std::uint32_t stream) const noexcept {
     const UInt<F> h = hash(stream);
     const UInt<F> shuffled = owen_scramble(UInt<F>(index), h);
-    const UInt<F> x = reverse_bits(shuffled);
-    UInt<F> y(0u), v(0x80000000u), rest = shuffled;
-    for (int bit = 0; bit < 32; ++bit, rest = rest >> 1, v = v ^ (v >> 1))
-      y = y ^ (v & (UInt<F>(0u) - (rest & UInt<F>(1u))));
-    return {unit_interval<F>(owen_scramble(x, mix_bits(h ^ UInt<F>(0x9e3779b9u)))),
-            unit_interval<F>(owen_scramble(y, mix_bits(h ^ UInt<F>(0x7f4a7c15u))))};
+    const auto scramble = [](UInt<F> reversed, UInt<F> seed) {
+      return unit_interval<F>(reverse_bits(laine_karras(reversed, mix_bits(seed))));
+    };
+    return {scramble(shuffled, h ^ UInt<F>(0x9e3779b9u)),
+            scramble(reversed_sobol_second(shuffled), h ^ UInt<F>(0x7f4a7c15u))};
   }
 
  private:

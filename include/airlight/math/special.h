@@ -60,18 +60,23 @@ F log1p_minus(F z) noexcept {
   }
 }
 
-/// The part g in [0, 1] of an interval over which e^{−y g} holds the part v of its integral, y >=
-/// 0:
+/// The part g in [0, 1] of an interval over which e^{−y g} holds the part v of its integral, y >= 0
+/// and drop = 1 − e^{−y}:
 ///
-///     g = −log(1 − v (1 − e^{−y})) / y
+///     g = −log(1 − v drop) / y
 template <Real F>
-F exponential_fraction(F y, F v) noexcept {
+F exponential_fraction(F y, F drop, F v) noexcept {
   // Below this depth the quotient divides rounding by y; the series is exact to y^2.
   const F small(std::same_as<F, double> ? 1e-5 : 2e-3);
   const F w = F(1) - v;
   const F series = v * (F(1) - y * w * F(0.5) + y * y * w * (w - v) * F(1. / 6));
-  const F inverse = -log1p_minus(min(v * one_minus_exp(y), F(1))) / max(y, small);
+  const F inverse = -log1p_minus(min(v * drop, F(1))) / max(y, small);
   return clamp(select(y < small, series, inverse), F(0), F(1));
+}
+
+template <Real F>
+F exponential_fraction(F y, F v) noexcept {
+  return exponential_fraction(y, one_minus_exp(y), v);
 }
 
 }  // namespace airlight::inline AIRLIGHT_ISA

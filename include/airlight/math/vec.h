@@ -26,9 +26,8 @@ struct Vec3 {
   friend constexpr Vec3 operator-(Vec3 a) noexcept { return {-a.x, -a.y, -a.z}; }
   friend constexpr Vec3 operator*(Vec3 a, F s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
   friend constexpr Vec3 operator*(F s, Vec3 a) noexcept { return a * s; }
-  friend constexpr bool operator==(const Vec3& a, const Vec3& b) noexcept
-    requires std::floating_point<F>
-  {
+  friend constexpr bool operator==(const Vec3& a,
+                                   const Vec3& b) noexcept requires std::floating_point<F> {
     return a.x == b.x && a.y == b.y && a.z == b.z;
   }
 
@@ -91,9 +90,8 @@ struct Rgb {
   friend constexpr Rgb operator*(F s, Rgb a) noexcept { return a * s; }
   Rgb& operator+=(Rgb a) noexcept { return *this = *this + a; }
   Rgb& operator*=(Rgb a) noexcept { return *this = *this * a; }
-  friend constexpr bool operator==(const Rgb& a, const Rgb& b) noexcept
-    requires std::floating_point<F>
-  {
+  friend constexpr bool operator==(const Rgb& a,
+                                   const Rgb& b) noexcept requires std::floating_point<F> {
     return a.r == b.r && a.g == b.g && a.b == b.b;
   }
 

@@ -16,14 +16,15 @@ void sin_cos_turn(F u, F& sine, F& cosine) noexcept {
   }
 }
 
-/// A direction drawn uniformly from the cap of half-angle acos(1 − height) about the unit vector `axis`.
+/// A direction drawn uniformly from the cap of half-angle acos(1 − height) about the unit vector
+/// `axis`.
 template <Real F>
 Vec3<F> uniform_cap(Vec3<F> axis, F height, Vec2<F> u) noexcept {
   Vec3<F> e1, e2;
   orthonormal_basis(axis, e1, e2);
   F sine, cosine;
   sin_cos_turn(u.y, sine, cosine);
-  const F h = height * u.x;                                       // 1 − cos θ
+  const F h = height * u.x;  // 1 − cos θ
   const F sin_theta = sqrt(max(h * (F(2) - h), F(0)));
   return e1 * (sin_theta * cosine) + e2 * (sin_theta * sine) + axis * (F(1) - h);
 }

@@ -19,8 +19,8 @@ struct Rayleigh {
     return F(3 / (16 * pi)) * fma(cos_theta, cos_theta, F(1));
   }
 
-  /// cos θ drawn from the phase function: the cubic c³ + 3c = 8u − 4 solved by c = r − 1/r (Frisvad 2011), the cube
-  /// root by exp and log. Total on u in [0, 1].
+  /// cos θ drawn from the phase function: the cubic c³ + 3c = 8u − 4 solved by c = r − 1/r (Frisvad
+  /// 2011), the cube root by exp and log. Total on u in [0, 1].
   template <Real F>
   F sample(F u) const noexcept {
     const F half = abs(F(4) * u - F(2));  // by symmetry the branch where r >= 1 loses no digits

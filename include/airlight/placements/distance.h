@@ -22,23 +22,26 @@ struct Distance {
 template <Real F, int channels, class Space>
 struct Distance::On<Section<F, channels, Space>> {
   const Section<F, channels, Space>& section;
-  Channels<F, channels> norm;  ///< ∫ e^{−σ t} dt over the section  [m]
+  Channels<F, channels> depth;  ///< optical depth of the section
+  Channels<F, channels> drop;   ///< 1 − e^{−depth}
+  Channels<F, channels> norm;   ///< ∫ e^{−σ t} dt over the section  [m]
   Channels<F, channels> chance;
 
   On(const Section<F, channels, Space>& s, const Channels<F, channels>& strength) noexcept
       : section(s) {
     Channels<F, channels> carried;
     for (int c = 0; c < channels; ++c) {
-      norm[c] = s.t_max * phi(s.sigma_t[c] * s.t_max);
+      depth[c] = s.sigma_t[c] * s.t_max;
+      drop[c] = one_minus_exp(depth[c]);
+      norm[c] = s.t_max * phi(depth[c]);
       carried[c] = strength[c] * norm[c];
     }
     chance = chances<F, channels>(carried);
   }
 
   F sample(F u) const noexcept {
-    return draw_by_channel<F, channels>(chance, u, [&](int c, F v) {
-      return section.t_max * exponential_fraction(section.sigma_t[c] * section.t_max, v);
-    });
+    const ChannelPick<F, channels> pick(chance, u);
+    return section.t_max * exponential_fraction(pick.of(depth), pick.of(drop), pick.u);
   }
 
   F pdf(F t, F) const noexcept {

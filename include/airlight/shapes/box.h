@@ -5,9 +5,10 @@ namespace airlight::inline AIRLIGHT_ISA {
 
 /// A box, oriented at will: the medium of Velinov 2021.
 struct Box {
-  Vec3<double> min{-1, -1, -1};   ///< [m]
-  Vec3<double> max{1, 1, 1};      ///< [m], above min in every component
-  Vec3<double> rotation{0, 0, 0}; ///< about x, then y, then z, through the centre of the box  [degrees]
+  Vec3<double> min{-1, -1, -1};  ///< [m]
+  Vec3<double> max{1, 1, 1};     ///< [m], above min in every component
+  Vec3<double> rotation{0, 0,
+                        0};  ///< about x, then y, then z, through the centre of the box  [degrees]
 
   static constexpr auto name = "box";
   static constexpr auto meaning = "a box between two corners, turned about its centre if asked";
@@ -20,7 +21,8 @@ struct Box {
           "turn about x, then y, then z, through the centre of the box");
   }
 
-  /// Coordinates in which the box is [-1, 1]^3. Directions are not normalised there, so that t stays in metres.
+  /// Coordinates in which the box is [-1, 1]^3. Directions are not normalised there, so that t
+  /// stays in metres.
   struct Space {
     Vec3<double> centre;
     Vec3<double> rows[3];  ///< of the linear map from the world
@@ -43,8 +45,10 @@ struct Box {
         const F inverse = F(1) / select(along, F(1), d);
         const F ta = (F(-1) - o) * inverse, tb = (F(1) - o) * inverse;
         const F nowhere = select(abs(o) > F(1), F(far_away), F(0));
-        inside.t_enter = airlight::max(inside.t_enter, select(along, nowhere, airlight::min(ta, tb)));
-        inside.t_exit = airlight::min(inside.t_exit, select(along, F(far_away), airlight::max(ta, tb)));
+        inside.t_enter =
+            airlight::max(inside.t_enter, select(along, nowhere, airlight::min(ta, tb)));
+        inside.t_exit =
+            airlight::min(inside.t_exit, select(along, F(far_away), airlight::max(ta, tb)));
       }
       return inside;
     }
@@ -81,9 +85,11 @@ struct Box {
 
     static constexpr int max_segments = 3;
 
-    /// The envelope of three lines: sorted by slope, its kinks are where neighbours cross; without a branch.
+    /// The envelope of three lines: sorted by slope, its kinks are where neighbours cross; without
+    /// a branch.
     template <Real F>
-    WayOut<F, max_segments> way_out(const LocalRay<F>& ray, const Outward<F>& out, F t_max) const noexcept {
+    WayOut<F, max_segments> way_out(const LocalRay<F>& ray, const Outward<F>& out,
+                                    F t_max) const noexcept {
       WayOut<F, max_segments> way;
       way.segments = 3;
       const auto line = [&](int i, F plane, F o, F d, F inverse, F parallel) {
@@ -109,7 +115,8 @@ struct Box {
       };
       const F t01 = crossing(0, 1), t12 = crossing(1, 2), t02 = crossing(0, 2);
       way.t[0] = F(0);
-      way.t[1] = clamp(airlight::min(t01, t02), F(0), t_max);  // where the middle line is never lowest,
+      way.t[1] =
+          clamp(airlight::min(t01, t02), F(0), t_max);  // where the middle line is never lowest,
       way.t[2] = clamp(airlight::max(t12, t02), way.t[1], t_max);  // both fall on t02
       way.t[3] = t_max;
       way.measure();

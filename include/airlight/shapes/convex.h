@@ -80,7 +80,8 @@ struct Convex {
 
     /// The lower envelope of a line a face, walked from kink to kink: usually one to three steps.
     template <Real F>
-    WayOut<F, max_segments> way_out(const LocalRay<F>& ray, const Outward<F>& out, F t_max) const noexcept {
+    WayOut<F, max_segments> way_out(const LocalRay<F>& ray, const Outward<F>& out,
+                                    F t_max) const noexcept {
       F a[max_faces], b[max_faces];
       for (int k = 0; k < face_count; ++k) {
         const Vec3<F> n(faces[k].n);
