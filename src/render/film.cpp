@@ -11,30 +11,17 @@ namespace airlight {
 
 template <class Real>
 template <class Other>
-void PixelSums<Real>::add(const PixelSums<Other>& other) {
+void PixelSums<Real>::add(const std::array<Other, count>& other) {
   const bool first = !(sample_count() > 0);
-  const auto colour = [](Rgb<Real>& into, const Rgb<Other>& from) {
-    into += Rgb<Real>(Real(from.r), Real(from.g), Real(from.b));
-  };
-  for (int half = 0; half < 2; ++half) {
-    colour(in_scatter[half].plain, other.in_scatter[half].plain);
-    colour(in_scatter[half].analytic, other.in_scatter[half].analytic);
-    colour(in_scatter[half].occluded, other.in_scatter[half].occluded);
-    colour(in_scatter[half].unoccluded, other.in_scatter[half].unoccluded);
-    samples[half] += Real(other.samples[half]);
-  }
-  colour(surface, other.surface);
-  colour(transmittance, other.transmittance);
-  colour(albedo, other.albedo);
-  normal = normal + Vec3<Real>(Real(other.normal.x), Real(other.normal.y), Real(other.normal.z));
-  if (first) {
-    depth = Real(other.depth);
-    object = Real(other.object);
-  }
+  Row mine = row();
+  for (std::size_t i = 0; i < added; ++i) mine[i] += Real(other[i]);
+  if (first)
+    for (std::size_t i = added; i < count; ++i) mine[i] = Real(other[i]);
+  *this = std::bit_cast<PixelSums>(mine);
 }
 
-template void PixelSums<float>::add(const PixelSums<float>&);
-template void PixelSums<float>::add(const PixelSums<double>&);
+template void PixelSums<float>::add(const std::array<float, count>&);
+template void PixelSums<float>::add(const std::array<double, count>&);
 
 Film::Film(Resolution full_, PixelRect crop_)
     : full(full_), crop(crop_), pixels(std::size_t(crop_.width) * std::size_t(crop_.height)) {}
@@ -48,7 +35,7 @@ void Film::merge(const Film& other) {
     throw Error(
         fmt::format("{} and {} cannot be merged; accepted: the same part of the same picture",
                     place(*this), place(other)));
-  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(other.pixels[i]);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(other.pixels[i].row());
 }
 
 namespace {

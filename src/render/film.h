@@ -1,6 +1,7 @@
 #pragma once
 #include <airlight/estimator.h>
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -9,23 +10,31 @@
 
 namespace airlight {
 
-/// What a pixel has gathered, every sample counting once; `Real` is float in a film and double
-/// while a tile is rendered.
+/// What a pixel has gathered, every sample counting once; `Real` is float in a film, double while a
+/// tile is rendered, and a batch for a packet of pixels.
 template <class Real>
 struct PixelSums {
   Halves<Real>
       in_scatter;  ///< light scattered or emitted by the medium, in two halves of the samples
-  std::array<Real, 2> samples{};  ///< how many are in each half
-  Rgb<Real> surface;              ///< light from surfaces and the background, dimmed by the medium
-  Rgb<Real> transmittance;        ///< of the medium and of glass up to the first opaque surface
-  Rgb<Real> albedo;               ///< of the first surface
-  Vec3<Real> normal;              ///< of the first surface, towards the camera
-  Real depth = 0;   ///< of the first surface on the pixel's first ray; 0 where there is none  [m]
-  Real object = 0;  ///< 1 + the index of that surface's object; 0 where there is none
+  std::array<Real, 2> samples{Real(0), Real(0)};  ///< how many are in each half
+  Rgb<Real> surface;        ///< light from surfaces and the background, dimmed by the medium
+  Rgb<Real> transmittance;  ///< of the medium and of glass up to the first opaque surface
+  Rgb<Real> albedo;         ///< of the first surface
+  Vec3<Real> normal;        ///< of the first surface, towards the camera
+  Real depth =
+      Real(0);  ///< of the first surface on the pixel's first ray; 0 where there is none  [m]
+  Real object = Real(0);  ///< 1 + the index of that surface's object; 0 where there is none
+
+  static constexpr std::size_t count = 40;  ///< numbers in all
+  static constexpr std::size_t added =
+      38;                               ///< the first ones, which add up; depth and object do not
+  using Row = std::array<Real, count>;  ///< the same as one row of numbers
+
+  Row row() const { return std::bit_cast<Row>(*this); }
 
   /// Adds another run's samples; the first surface stays that of the first run that has samples.
   template <class Other>
-  void add(const PixelSums<Other>& other);
+  void add(const std::array<Other, count>& other);
 
   Real sample_count() const { return samples[0] + samples[1]; }
 };

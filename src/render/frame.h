@@ -28,14 +28,14 @@ struct Frame {
   std::uint32_t samples_per_surface_ray =
       1;  ///< samples of a camera ray that share a surface's shadow ray to a light with a disc
   std::uint32_t seed = 0;
-  std::vector<ParallelShadows> shadows;  ///< one a light, for the exact estimator only
+  std::vector<ParallelShadows> shadows = {};  ///< one a light, for the exact estimator only
 };
 
 /// A part of the picture that one worker renders, with its sums in double.
 struct Tile {
   PixelRect rect;  ///< in pixels of the whole picture
   SampleRange samples;
-  std::vector<PixelSums<double>> pixels;  ///< row by row
+  std::vector<PixelSums<double>::Row> pixels;  ///< row by row
 };
 
 }  // namespace airlight

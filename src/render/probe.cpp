@@ -177,12 +177,12 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
   const World world(scene, settings.visibility);
   const Prepared prepared = prepare(scene, world, in_double);
 
-  Tile tile{{x, y, 1, 1}, prepared.samples, std::vector<PixelSums<double>>(1)};
+  Tile tile{{x, y, 1, 1}, prepared.samples, std::vector<PixelSums<double>::Row>(1)};
   const Frame& frame = prepared.frame;
   RayKeeper keeper(frame.through_centre ? 1 : prepared.samples.count / frame.samples_per_ray + 2);
   render_tile<double>(frame, tile, keeper);
 
-  const PixelSums<double>& sums = tile.pixels[0];
+  const auto sums = std::bit_cast<PixelSums<double>>(tile.pixels[0]);
   Probe result;
   result.x = x, result.y = y;
   result.estimator = settings.estimator;

@@ -25,14 +25,13 @@ double seconds_since(Clock::time_point start) {
 
 constexpr int tile_size = 16;  // divisible by every kernel's block
 
-bool is_finite(const PixelSums<double>& pixel) {
-  double sum = 0;
-  const auto add = [&](const Rgb<double>& c) { sum += c.r * 0 + c.g * 0 + c.b * 0; };
-  for (const Estimate<double>& half : pixel.in_scatter)
-    add(half.plain), add(half.analytic), add(half.occluded), add(half.unoccluded);
-  add(pixel.surface), add(pixel.transmittance), add(pixel.albedo);
-  add(Rgb<double>(pixel.normal.x, pixel.normal.y, pixel.normal.z));
-  return std::isfinite(sum + pixel.depth * 0);
+/// Without a branch a number: adding one to an exponent of all ones, and to no other, carries into
+/// the sign bit.
+bool is_finite(const PixelSums<double>::Row& pixel) {
+  std::uint64_t carried = 0;
+  for (double value : pixel)
+    carried |= (std::bit_cast<std::uint64_t>(value) & 0x7fffffffffffffffu) + 0x0010000000000000u;
+  return (carried >> 63) == 0;
 }
 
 PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
@@ -103,11 +102,11 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
     tile.rect = {crop.x0 + x, crop.y0 + y, std::min(tile_size, crop.width - x),
                  std::min(tile_size, crop.height - y)};
     tile.samples = samples;
-    tile.pixels.resize(std::size_t(tile.rect.width * tile.rect.height));
+    tile.pixels.assign(std::size_t(tile.rect.width * tile.rect.height), {});
     prepared.kernel.render(prepared.frame, tile);
     for (int j = 0; j < tile.rect.height; ++j)
       for (int i = 0; i < tile.rect.width; ++i) {
-        const PixelSums<double>& sums = tile.pixels[std::size_t(j * tile.rect.width + i)];
+        const auto& sums = tile.pixels[std::size_t(j * tile.rect.width + i)];
         if (is_finite(sums))
           result.film.pixels[std::size_t(y + j) * std::size_t(crop.width) + std::size_t(x + i)].add(
               sums);

@@ -108,6 +108,8 @@ class SurfaceWalk {
   /// dims light on its way in (Velinov 2021 Eq. 1 with a Lambertian surface).  [W/(m² sr)]
   Rgb<F> shade(const Crossing& at, Vec3<F> origin, Vec3<F> direction, F t, SampleRange samples,
                Mask<F> found) const noexcept {
+    found = found & ((at.albedo.r + at.albedo.g + at.albedo.b) > F(0));
+    if (!any(found)) return {};  // black
     Rgb<F> light_in = Rgb<F>(frame_.scene.ambient) * F(pi);
     const Vec3<F> p = origin + direction * t;
     // Shadow rays start a little off the surface: the hit is known to a few roundings of its

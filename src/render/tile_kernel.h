@@ -45,15 +45,6 @@ struct ExactVisibility {
   }
 };
 
-/// Sums of a packet, a lane a pixel, until they are spilled into the tile's.
-template <Real F>
-struct PacketSums {
-  Halves<F> in_scatter;
-  std::array<std::uint32_t, 2> samples{};
-  Rgb<F> surface, transmittance, albedo;
-  Vec3<F> normal;
-};
-
 /// Adds what one light scatters into one camera ray, by the frame's estimator; `watch` is told of
 /// every sample.
 template <int channels, Real F, class Space, class L, class Watch>
@@ -121,7 +112,7 @@ class TileKernel {
     const Mask<F> active = mask_from_bits<F>(inside);
     const F x = load<F>(px), y = load<F>(py);
 
-    PacketSums<F> sums;
+    PixelSums<F> sums;
     const std::uint32_t end = tile_.samples.first + tile_.samples.count;
     std::uint32_t rays_held = 0;
     for (std::uint32_t i = tile_.samples.first; i < end;) {
@@ -138,7 +129,7 @@ class TileKernel {
 
   void camera_ray(F x, F y, std::uint32_t index, SampleRange samples, const Sampler<F>& sampler,
                   Mask<F> active, const std::array<int, std::size_t(lanes<F>)>* first_of,
-                  PacketSums<F>& sums) const noexcept {
+                  PixelSums<F>& sums) const noexcept {
     if (!frame_.through_centre) {
       const Vec2<F> offset = filter_offset(frame_.filter, sampler.two(index, stream::camera));
       x = x + offset.x, y = y + offset.y;
@@ -164,7 +155,7 @@ class TileKernel {
     const bool halve_by_ray = !frame_.through_centre;
     for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
       const int half = half_of(halve_by_ray ? index : i);
-      ++sums.samples[std::size_t(half)];
+      sums.samples[std::size_t(half)] += F(1);
       sums.in_scatter[std::size_t(half)].plain += walk.emission;
     }
     sums.surface += walk.radiance * n;
@@ -174,8 +165,9 @@ class TileKernel {
     if (first_of)
       for (int i = 0; i < lanes<F>; ++i)
         if (const int p = (*first_of)[std::size_t(i)]; p >= 0) {
-          tile_.pixels[std::size_t(p)].depth = lane(walk.depth, i);
-          tile_.pixels[std::size_t(p)].object = lane(walk.object, i);
+          auto& row = tile_.pixels[std::size_t(p)];
+          row[PixelSums<F>::added] = double(lane(walk.depth, i));
+          row[PixelSums<F>::added + 1] = double(lane(walk.object, i));
         }
 
     if (!medium_) return;
@@ -197,26 +189,18 @@ class TileKernel {
           frame_.scene.lights[std::size_t(i)]);
   }
 
-  void spill(PacketSums<F>& sums,
+  /// Adds a packet's sums, a lane a pixel, to the tile's. Many are zero: an estimator uses some of
+  /// the four.
+  void spill(PixelSums<F>& sums,
              const std::array<int, std::size_t(lanes<F>)>& pixel) const noexcept {
-    for (int i = 0; i < lanes<F>; ++i) {
-      if (pixel[std::size_t(i)] < 0) continue;
-      PixelSums<double>& into = tile_.pixels[std::size_t(pixel[std::size_t(i)])];
-      const auto colour = [&](Rgb<double>& to, const Rgb<F>& from) {
-        to += Rgb<double>(lane(from.r, i), lane(from.g, i), lane(from.b, i));
-      };
-      for (std::size_t half = 0; half < 2; ++half) {
-        colour(into.in_scatter[half].plain, sums.in_scatter[half].plain);
-        colour(into.in_scatter[half].analytic, sums.in_scatter[half].analytic);
-        colour(into.in_scatter[half].occluded, sums.in_scatter[half].occluded);
-        colour(into.in_scatter[half].unoccluded, sums.in_scatter[half].unoccluded);
-        into.samples[half] += sums.samples[half];
-      }
-      colour(into.surface, sums.surface);
-      colour(into.transmittance, sums.transmittance);
-      colour(into.albedo, sums.albedo);
-      into.normal = into.normal + Vec3<double>(lane(sums.normal.x, i), lane(sums.normal.y, i),
-                                               lane(sums.normal.z, i));
+    const auto values = sums.row();
+    for (std::size_t k = 0; k < PixelSums<F>::added; ++k) {
+      if (!any(values[k] != F(0))) continue;
+      alignas(64) Scalar<F> lane_values[lanes<F>];
+      store(values[k], lane_values);
+      for (int i = 0; i < lanes<F>; ++i)
+        if (const int p = pixel[std::size_t(i)]; p >= 0)
+          tile_.pixels[std::size_t(p)][k] += double(lane_values[i]);
     }
     sums = {};
   }
