@@ -83,7 +83,9 @@ struct PictureOfRays {
     const Hit<float> hit = frame.world.closest<float>(origin, direction, 0, true);
     Recorder recorder;
 
-    const std::uint32_t count = sun.angular_diameter > 0 ? frame.surface_samples : 1;
+    const std::uint32_t sharing = frame.samples_per_surface_ray;
+    const std::uint32_t count =
+        sun.angular_diameter > 0 ? (prepared.samples.count + sharing - 1) / sharing : 1;
     for (std::uint32_t i = 0; i < count; ++i) {
       const Vec3<float> w = uniform_cap(Vec3<float>(sun.toward()), float(sun.cap_height()),
                                         sampler.two(i, stream::surface(0)));
