@@ -51,9 +51,9 @@ struct WholeVolume::On<Section<F, channels, Space>> {
                         member(section.trapezoids[2])});
       };
       drawn.total = of([](const auto& t) { return t.total; });
-      for (int i = 0; i <= section.way.segments; ++i)
+      for (int i = 0; i <= 1 || i <= section.way.segments; ++i)  // one segment at least
         drawn.depth_at[i] = of([i](const auto& t) { return t.depth_at[i]; });
-      for (int i = 0; i < section.way.segments; ++i) {
+      for (int i = 0; i < 1 || i < section.way.segments; ++i) {
         drawn.integral[i] = of([i](const auto& t) { return t.integral[i]; });
         drawn.drop[i] = of([i](const auto& t) { return t.drop[i]; });
       }
