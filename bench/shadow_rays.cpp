@@ -110,8 +110,11 @@ struct PictureOfRays {
     ray.t_max = std::max(std::min(hit.t, inside.t_exit) - inside.t_enter, 0.f);
     ray.active = ray.t_max > 0;
     Halves<float> sums;
-    std::get<Sampled>(frame.estimator)
-        .add<3>(medium, space, sun, 0, ray, prepared.samples, false, sampler, recorder, sums);
+    const auto& sampled = std::get<Sampled>(frame.estimator);
+    if (medium.is_grey())
+      sampled.add<1>(medium, space, sun, 0, ray, prepared.samples, false, sampler, recorder, sums);
+    else
+      sampled.add<3>(medium, space, sun, 0, ray, prepared.samples, false, sampler, recorder, sums);
     return std::move(recorder.rays);
   }
 

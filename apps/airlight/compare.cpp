@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "flags.h"
+#include "image/atomic_file.h"
 #include "numbers.h"
 #include "scene_flags.h"
 #include "study/comparison.h"
@@ -52,6 +53,7 @@ int compare(Flags& flags) {
   const airlight::Scene scene = flags.scene.load();
   if (!flags.quiet && !scene.assumptions.empty())
     fmt::print(stderr, "assumed: {}\n", fmt::join(scene.assumptions, "; "));
+  airlight::make_folder(flags.folder);
   const airlight::Comparison comparison = airlight::compare_estimators(scene, flags.settings);
   airlight::write_comparison(comparison, flags.scene.file().filename().string(), flags.folder);
   if (!flags.quiet)

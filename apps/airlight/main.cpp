@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
   for (std::size_t i = 0; i < std::size(verbs); ++i)
     if (app.got_subcommand(verbs[i].name)) {
       const int status = actions[i]();
-      if (std::fflush(stdout) != 0)
+      if (std::fflush(stdout) != 0 || std::ferror(stdout))
         throw Error(fmt::format("what was printed cannot be written: {}", std::strerror(errno)));
       return status;
     }

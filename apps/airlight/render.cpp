@@ -93,13 +93,19 @@ int render(Flags& flags) {
     if (Interrupt::received()) stop.request_stop();
     line.show(progress);
   };
+  const char* const instruction_set = renderer.instruction_set(scene.render);
   if (schedule.preview > 0) {
     control.short_passes = true;
     control.on_pass = [&, next = 0.](const airlight::Film& film,
                                      const airlight::Progress& progress) mutable {
       if (progress.seconds < next || progress.samples_done == progress.samples) return;
-      flags.outputs.write(
-          picture_of(film, scene.render, "", progress.samples_done, progress.seconds));
+      try {
+        flags.outputs.write(picture_of(film, scene.render, instruction_set, progress.samples_done,
+                                       progress.seconds));
+      } catch (const Error& error) {  // the render goes on: its last picture may succeed
+        line.clear();
+        fmt::print(stderr, "{}\n", error.what());
+      }
       next = progress.seconds + schedule.preview;
     };
   }
@@ -108,10 +114,10 @@ int render(Flags& flags) {
   line.clear();
   flags.outputs.write(
       picture_of(done.film, scene.render, done.instruction_set, done.samples, done.seconds));
+  if (done.rejected > 0)
+    fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
+               done.rejected);
   if (!flags.quiet) {
-    if (done.rejected > 0)
-      fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
-                 done.rejected);
     const std::string of = done.complete ? "" : fmt::format(" of {}", scene.render.spp);
     fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", flags.outputs.names(),
                done.film.crop.width, done.film.crop.height, done.samples, of, done.seconds,

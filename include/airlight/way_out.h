@@ -101,7 +101,7 @@ struct Trapezoids {
   /// in [0, 1] so that strata stay strata (Velinov 2021 section 5). Within a segment the inverse
   /// starts from the end of smaller depth, where nothing can overflow.  CDF(sample(u)) − u < 2e-11
   /// in double, 3e-6 in float where the depth is below 20.
-  F sample(const WayOut<F, max_segments>& way, F u) const noexcept {
+  AIRLIGHT_INLINE F sample(const WayOut<F, max_segments>& way, F u) const noexcept {
     const F x = u * total;
     F below = F(0), seen = F(0);
     F t0 = way.t[0], t1 = way.t[1];

@@ -130,6 +130,13 @@ void check_writable(const std::filesystem::path& path) {
   AtomicFile{path};
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw Error(folder.string() + ": no folder can be made here: " + failed.message());
+  check_writable(folder / "index.html");
+}
+
 void write_text(const std::filesystem::path& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text);

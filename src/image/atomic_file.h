@@ -50,6 +50,10 @@ class AtomicFile {
 /// Throws what AtomicFile would throw for this target, and leaves nothing behind.
 void check_writable(const std::filesystem::path& path);
 
+/// Makes a folder and those above it, if it is not there yet. Throws Error if it cannot be made or
+/// written to.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes a text file whole or not at all.
 void write_text(const std::filesystem::path& path, std::string_view text);
 

@@ -23,8 +23,9 @@ struct Frame {
   CameraFrame camera;
   Estimators estimator;
   PixelFilter filter = PixelFilter::tent;
-  bool through_centre = false;        ///< every sample of a pixel shares the ray through its centre
-  std::uint32_t samples_per_ray = 1;  ///< counts where they do not
+  bool through_centre = false;  ///< every sample of a pixel shares the ray through its centre
+  /// Samples that a camera ray is traced for; where all share one, what is taken of it at a time.
+  std::uint32_t samples_per_ray = 1;
   std::uint32_t samples_per_surface_ray =
       1;  ///< samples of a camera ray that share a surface's shadow ray to a light with a disc
   std::uint32_t seed = 0;

@@ -22,10 +22,11 @@ std::string names_of() {
   return names;
 }
 
-const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa) {
-  // The exact estimator is there to judge the others: it computes in double only.
-  return kernel_for(std::holds_alternative<ClosedForm>(estimator) ? InstructionSet::reference
-                                                                  : isa);
+bool has_wide_disc(const Scene& scene) {
+  for (const Lights& light : scene.lights)
+    if (const auto* sun = std::get_if<Directional>(&light))
+      if (sun->angular_diameter > Sampled::narrow_disc) return true;
+  return false;
 }
 
 bool all_opaque(const Scene& scene) {
@@ -35,6 +36,12 @@ bool all_opaque(const Scene& scene) {
 }
 
 }  // namespace
+
+const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa) {
+  // The exact estimator is there to judge the others: it computes in double only.
+  return kernel_for(std::holds_alternative<ClosedForm>(estimator) ? InstructionSet::reference
+                                                                  : isa);
+}
 
 CameraFrame camera_frame(const Camera& camera, Resolution resolution) {
   const Vec3<double> forward = normalize(camera.target - camera.position);
@@ -111,7 +118,11 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   // share one.
   frame.through_centre = settings.samples_per_ray == 0 ||
                          (!settings.first_sample && settings.spp <= settings.samples_per_ray);
-  frame.samples_per_ray = std::uint32_t(std::max<std::int64_t>(settings.samples_per_ray, 1));
+  // Through the centre, samples that share a wide disc's direction are few, so that a picture sees
+  // many directions.
+  frame.samples_per_ray = !frame.through_centre  ? std::uint32_t(settings.samples_per_ray)
+                          : has_wide_disc(scene) ? 4
+                                                 : 1024;
   frame.samples_per_surface_ray = frame.through_centre ? 4 : std::min(frame.samples_per_ray, 4u);
   frame.seed = std::uint32_t(settings.seed);
   return {frame,

@@ -15,6 +15,10 @@ CameraFrame camera_frame(const Camera& camera, Resolution resolution);
 /// The estimator that the settings name, with its parameters. Throws Error with the accepted names.
 Estimators estimator_for(const RenderSettings& settings);
 
+/// The kernel that an estimator runs on: the reference for the exact one, which is there to judge
+/// the others.
+const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa);
+
 /// Throws Error if the settings don't fit each other, the scene or the machine.
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings);
 

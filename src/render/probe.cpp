@@ -179,7 +179,7 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
 
   Tile tile{{x, y, 1, 1}, prepared.samples, std::vector<PixelSums<double>::Row>(1)};
   const Frame& frame = prepared.frame;
-  RayKeeper keeper(frame.through_centre ? 1 : prepared.samples.count / frame.samples_per_ray + 2);
+  RayKeeper keeper(prepared.samples.count / frame.samples_per_ray + 2);
   render_tile<double>(frame, tile, keeper);
 
   const auto sums = std::bit_cast<PixelSums<double>>(tile.pixels[0]);

@@ -35,7 +35,7 @@ struct ProbedStep {
   double t = 0;               ///< [m]
   double pdf = 0;             ///< of the placement; 0 for an estimator without samples  [1/m]
   Rgb<double> transmittance;  ///< from the light through here to the camera
-  Rgb<double> visibility;     ///< of the light's centre
+  Rgb<double> visibility;     ///< along `toward`
 };
 
 /// One light along one camera ray.

@@ -69,6 +69,10 @@ Renderer::Renderer(const Scene& scene) : scene_(scene), worlds_(std::make_unique
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 
+const char* Renderer::instruction_set(const RenderSettings& settings) const {
+  return kernel_of(estimator_for(settings), settings.isa).name;
+}
+
 void Renderer::check(const RenderSettings& settings) const { check_settings(scene_, settings); }
 
 Rendered Renderer::render(const RenderSettings& settings, const RenderControl& control) {

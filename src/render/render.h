@@ -42,11 +42,15 @@ struct Rendered {
 class Renderer {
  public:
   explicit Renderer(const Scene& scene);
+  explicit Renderer(const Scene&&) = delete;
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
   /// Throws Error if the settings don't fit each other, the scene, or the machine.
   Rendered render(const RenderSettings& settings, const RenderControl& control = {});
+
+  /// The name of the instruction set that `render` would use.
+  const char* instruction_set(const RenderSettings& settings) const;
 
   /// Throws what `render` would throw for these settings, without a ray.
   void check(const RenderSettings& settings) const;

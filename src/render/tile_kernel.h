@@ -94,6 +94,10 @@ class TileKernel {
   }
 
  private:
+  /// Samples summed in F before they are added to the tile's sums in double: longer runs of floats
+  /// drift.
+  static constexpr std::uint32_t longest_run = 1024;
+
   void packet(int x0, int y0) const noexcept {
     alignas(64) Scalar<F> px[lanes<F>], py[lanes<F>];
     std::array<int, std::size_t(lanes<F>)> pixel;
@@ -114,15 +118,15 @@ class TileKernel {
 
     PixelSums<F> sums;
     const std::uint32_t end = tile_.samples.first + tile_.samples.count;
-    std::uint32_t rays_held = 0;
+    std::uint32_t held = 0;
     for (std::uint32_t i = tile_.samples.first; i < end;) {
-      const std::uint32_t per_ray = frame_.samples_per_ray;
-      const std::uint32_t index = frame_.through_centre ? 0 : i / per_ray;
-      const std::uint32_t stop = frame_.through_centre ? end : std::min(end, (index + 1) * per_ray);
+      const std::uint32_t index = i / frame_.samples_per_ray;
+      const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_ray);
       const bool first = i == tile_.samples.first;
       camera_ray(x, y, index, {i, stop - i}, sampler, active, first ? &pixel : nullptr, sums);
+      held += stop - i;
       i = stop;
-      if (++rays_held == 64) spill(sums, pixel), rays_held = 0;  // short runs in F
+      if (held >= longest_run) spill(sums, pixel), held = 0;
     }
     spill(sums, pixel);
   }

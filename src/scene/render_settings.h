@@ -70,9 +70,9 @@ struct RenderSettings {
           "the part of the samples that mix_with draws");
     field("spp", &S::spp, unit::none, closed(1, 1 << 28),
           "visibility samples a pixel gets for each light");
-    field(
-        "samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),
-        "how many of them share a camera ray, a power of two; 0: all, through the pixel's centre");
+    field("samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),
+          "how many of them share a camera ray, a power of two; 0, or spp up to this without "
+          "first_sample: all, through the pixel's centre, without filter");
     field("seed", &S::seed, unit::none, closed(0, 4294967295.), "another seed gives other noise");
     field("first_sample", &S::first_sample, unit::none, closed(0, 1 << 28),
           "where a range of samples starts, for pictures to be merged");

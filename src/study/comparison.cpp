@@ -38,6 +38,20 @@ bool has_exact_reference(const Scene& scene, Renderer& renderer, RenderSettings 
   }
 }
 
+/// Where rays are spread over a pixel, they are so at every count: a few samples don't share the
+/// pixel's centre.
+void spread_rays(RenderSettings& settings) {
+  if (settings.samples_per_ray != 0 && !settings.first_sample) settings.first_sample = 0;
+}
+
+/// A render all of whose sums count. Throws Error otherwise: a hole in the picture is no noise.
+Rendered whole(Rendered rendered, const RenderSettings& settings) {
+  if (rendered.rejected > 0)
+    throw Error(fmt::format("{}: {} sums of pixels were not finite", settings.estimator,
+                            rendered.rejected));
+  return rendered;
+}
+
 void make_reference(const Scene& scene, const ComparisonSettings& settings, Renderer& renderer,
                     Comparison& comparison) {
   if (!settings.reference_file.empty()) {
@@ -51,6 +65,7 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
     return;
   }
   RenderSettings reference = scene.render;
+  spread_rays(reference);
   if (settings.reference_spp == 0 && has_exact_reference(scene, renderer, reference)) {
     reference.estimator = "closed_form";
     reference.spp = 1;
@@ -62,7 +77,7 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
     comparison.reference_source =
         fmt::format("rewv at {} spp with a seed of its own", reference.spp);
   }
-  comparison.reference = renderer.render(reference).film.layer("beauty");
+  comparison.reference = whole(renderer.render(reference), reference).film.layer("beauty");
 }
 
 /// The count that an estimator reaches in the given time, from the speed of runs that double until
@@ -76,7 +91,7 @@ std::int64_t samples_in(double seconds, Renderer& renderer, RenderSettings setti
 }
 
 Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const Image& reference,
-                 Comparison& comparison, const std::function<void()>& done_one) {
+                 Comparison& comparison) {
   Measured row{.estimator = settings.estimator,
                .spp = settings.spp,
                .seconds = {},
@@ -87,7 +102,7 @@ Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const I
   const std::int64_t first_seed = settings.seed;
   for (int i = 0; i < seeds; ++i) {
     settings.seed = first_seed + i;
-    const Rendered rendered = renderer.render(settings);
+    const Rendered rendered = whole(renderer.render(settings), settings);
     comparison.instruction_set = rendered.instruction_set;
     Image picture = rendered.film.layer("beauty");
     const Metrics metrics = compare(picture, reference);
@@ -95,7 +110,6 @@ Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const I
     for (std::size_t m = 0; m < metric_list.size(); ++m)
       values[m].push_back(metrics.*metric_list[m].value);
     if (i == 0) row.picture = std::move(picture);
-    done_one();
   }
   row.seconds = spread(seconds);
   for (std::size_t m = 0; m < metric_list.size(); ++m) row.metrics[m] = spread(values[m]);
@@ -104,8 +118,7 @@ Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const I
 
 }  // namespace
 
-Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings,
-                              const std::function<void(double)>& on_progress) {
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings) {
   Renderer renderer(scene);
   for (const std::string& estimator : settings.estimators) {
     RenderSettings one = scene.render;
@@ -117,19 +130,14 @@ Comparison compare_estimators(const Scene& scene, const ComparisonSettings& sett
 
   const std::vector<std::int64_t> counts =
       settings.equal_time > 0 ? std::vector<std::int64_t>{0} : settings.spp;
-  double work = 0, done = 0;
-  for (std::int64_t spp : counts) work += double(std::max<std::int64_t>(spp, 1));
-  work *= double(settings.estimators.size()) * settings.seeds;
   for (const std::string& estimator : settings.estimators)
     for (std::int64_t spp : counts) {
       RenderSettings one = scene.render;
       one.estimator = estimator;
+      spread_rays(one);
       one.spp = spp > 0 ? spp : samples_in(settings.equal_time, renderer, one);
       comparison.rows.push_back(
-          measure(renderer, one, settings.seeds, comparison.reference, comparison, [&] {
-            done += double(std::max<std::int64_t>(spp, 1));
-            if (on_progress) on_progress(done / work);
-          }));
+          measure(renderer, one, settings.seeds, comparison.reference, comparison));
     }
   return comparison;
 }

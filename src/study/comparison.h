@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,10 +38,8 @@ struct Comparison {
 };
 
 /// Renders every estimator at every count with every seed and measures its distance to the
-/// reference. `on_progress` is told the part that is done. Throws Error where an estimator can't
-/// serve the scene or the reference does not fit.
-Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings,
-                              const std::function<void(double)>& on_progress = {});
+/// reference. Throws Error where an estimator can't serve the scene or the reference does not fit.
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings);
 
 /// Writes index.html, results.csv and the pictures into a folder, which is made if it is missing.
 void write_comparison(const Comparison& comparison, const std::string& scene_name,

@@ -96,11 +96,7 @@ std::int64_t shown_spp(const Comparison& comparison, const std::string& estimato
 void write_comparison(const Comparison& comparison, const std::string& scene_name,
                       const std::filesystem::path& folder) {
   const std::filesystem::path pictures = folder / "pictures";
-  std::error_code failed;
-  std::filesystem::create_directories(pictures, failed);
-  if (failed)
-    throw Error(
-        fmt::format("{}: no folder can be made here: {}", folder.string(), failed.message()));
+  make_folder(pictures);
 
   Page page("Estimators on " + scene_name,
             fmt::format("Compared with {}. Computed with {} instructions.",

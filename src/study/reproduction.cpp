@@ -19,11 +19,7 @@ Figure Reproduced::picture(const std::string& name, const Image& image,
 }
 
 std::vector<Row> reproduce(const Reproduction& reproduction, const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw Error(
-        fmt::format("{}: no folder can be made here: {}", folder.string(), failed.message()));
+  make_folder(folder);
   Reproduced out{folder, Page(reproduction.title, reproduction.shows)};
   reproduction.run(out);
   write_text(folder / "result.json", json(out.rows));

@@ -18,7 +18,7 @@ constexpr U mix_bits(U x) noexcept {
 }
 
 template <class U>
-U reverse_bits(U x) noexcept {
+AIRLIGHT_INLINE U reverse_bits(U x) noexcept {
   x = ((x >> 1) & U(0x55555555u)) | ((x & U(0x55555555u)) << 1);
   x = ((x >> 2) & U(0x33333333u)) | ((x & U(0x33333333u)) << 2);
   x = ((x >> 4) & U(0x0f0f0f0fu)) | ((x & U(0x0f0f0f0fu)) << 4);
@@ -29,7 +29,7 @@ U reverse_bits(U x) noexcept {
 /// Permutes so that a bit depends on the bits below it only (Laine and Karras 2011): between two
 /// reversals, that is an Owen scramble.
 template <class U>
-U laine_karras(U x, U seed) noexcept {
+AIRLIGHT_INLINE U laine_karras(U x, U seed) noexcept {
   x = x ^ (x * U(0x3d20adeau));
   x = x + seed;
   x = x * ((seed >> 16) | U(1u));
@@ -68,7 +68,7 @@ struct Sampler {
 
   /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
   /// each interval of length 2^-k.
-  F one(std::uint32_t index, std::uint32_t stream) const noexcept {
+  AIRLIGHT_INLINE F one(std::uint32_t index, std::uint32_t stream) const noexcept {
     // reverse(index) is the van der Corput point; its scramble reverses it once more.
     return unit_interval<F>(reverse_bits(laine_karras(UInt<F>(index), mix_bits(hash(stream)))));
   }

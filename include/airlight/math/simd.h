@@ -18,6 +18,9 @@
 #define AIRLIGHT_ISA baseline
 #endif
 
+// For the few functions of the innermost loop: a call there would spill every vector register.
+#define AIRLIGHT_INLINE [[gnu::always_inline]] inline
+
 namespace airlight::inline AIRLIGHT_ISA {
 
 /// As many floats as a register of this instruction set holds.

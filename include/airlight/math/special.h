@@ -6,7 +6,7 @@ namespace airlight::inline AIRLIGHT_ISA {
 /// φ(y) = (1 − e^{−y}) / y, φ(0) = 1, the mean of e^{−x} over [0, y], for y in [0, 1]: minimax
 /// polynomials. Relative error 1.1e-7 in float (degree 6), 4e-16 in double (degree 13).
 template <Real F>
-F phi_below_one(F y) noexcept {
+AIRLIGHT_INLINE F phi_below_one(F y) noexcept {
   if constexpr (std::same_as<F, double>) {
     constexpr double c[] = {1,
                             -0.5,
@@ -44,14 +44,14 @@ F phi(F y) noexcept {
 
 /// 1 − e^{−y} for y >= 0, without cancellation.
 template <Real F>
-F one_minus_exp(F y) noexcept {
+AIRLIGHT_INLINE F one_minus_exp(F y) noexcept {
   return select(y < F(1), y * phi_below_one(y), F(1) - exp(-y));
 }
 
 /// log(1 − z) for z in [0, 1], finite also at z = 1: the log of the smallest normal number there.
 /// The batch corrects the rounding of 1 − z after Kahan, which holds only without -ffast-math.
 template <Real F>
-F log1p_minus(F z) noexcept {
+AIRLIGHT_INLINE F log1p_minus(F z) noexcept {
   if constexpr (std::floating_point<F>) {
     return std::log1p(-min(z, F(1) - std::numeric_limits<F>::epsilon() / 2));
   } else {
@@ -65,7 +65,7 @@ F log1p_minus(F z) noexcept {
 ///
 ///     g = −log(1 − v drop) / y
 template <Real F>
-F exponential_fraction(F y, F drop, F v) noexcept {
+AIRLIGHT_INLINE F exponential_fraction(F y, F drop, F v) noexcept {
   // Below this depth the quotient divides rounding by y; the series is exact to y^2.
   const F small(std::same_as<F, double> ? 1e-5 : 2e-3);
   const F w = F(1) - v;
