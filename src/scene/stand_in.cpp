@@ -107,7 +107,8 @@ View inside_view(const Model& model, const Bounds& room) {
   return view;
 }
 
-/// From outside and above, the sun to the side and a little behind, as shafts like it.
+/// From outside and above, the sun to the side: half of what stands there is lit, and its shadow in
+/// the fog is seen from the side.
 View outside_view(const Bounds& bounds) {
   constexpr double azimuth = 25, elevation = 15, fov = 40;
   const double radius = std::max(0.5 * length(bounds.size()), 1e-3);
@@ -116,7 +117,7 @@ View outside_view(const Bounds& bounds) {
   const Vec margin = Vec{1, 1, 1} * (0.25 * radius);
   const Camera camera{
       centre + toward_sky(180 - azimuth, elevation) * distance, centre, {0, 1, 0}, fov};
-  return {false, camera, {-65, 35}, {bounds.min - margin, bounds.max + margin}};
+  return {false, camera, {70, 40}, {bounds.min - margin, bounds.max + margin}};
 }
 
 /// A room shows the front of its surfaces all around to someone in its middle.
@@ -141,11 +142,12 @@ std::string light_table(const Directional& light) {
       r, g, b, d.x, d.y, d.z, light.angular_diameter);
 }
 
-std::string sun_table(const Sun& sun) {
+/// Bright for a room, where little of it comes in.
+std::string sun_table(const View& view) {
   return fmt::format(
-      "[[lights]]\ntype = \"directional\"\nirradiance = [22, 19, 15]\nazimuth = {:.0f}\n"
+      "[[lights]]\ntype = \"directional\"\nirradiance = {}\nazimuth = {:.0f}\n"
       "elevation = {:.0f}\nangular_diameter = 0.53\n",
-      sun.azimuth, sun.elevation);
+      view.is_room ? "[22, 19, 15]" : "[8, 7, 5.6]", view.sun.azimuth, view.sun.elevation);
 }
 
 /// Fog that dims by about half across the box.
@@ -162,7 +164,9 @@ StandIn stand_in_for(const Model& model, const std::string& file) {
   const View view = view_of(model);
   StandIn result;
   std::vector<std::string> assumed;
-  result.toml = "background = [0.9, 1.05, 1.3]\nambient = [0.2, 0.21, 0.24]\n";
+  // A bright sky for the windows of a room; behind a thing a dim one, before which lit fog shows.
+  result.toml = view.is_room ? "background = [0.9, 1.05, 1.3]\nambient = [0.2, 0.21, 0.24]\n"
+                             : "background = [0.04, 0.05, 0.07]\nambient = [0.1, 0.11, 0.13]\n";
   if (model.camera) {
     result.toml += camera_table(*model.camera);
   } else {
@@ -171,7 +175,7 @@ StandIn stand_in_for(const Model& model, const std::string& file) {
                                   text(view.camera.position)));
   }
   if (model.lights.empty()) {
-    result.toml += sun_table(view.sun);
+    result.toml += sun_table(view);
     assumed.push_back(fmt::format("a sun at azimuth {:.0f}, elevation {:.0f}", view.sun.azimuth,
                                   view.sun.elevation));
   }
@@ -181,7 +185,7 @@ StandIn stand_in_for(const Model& model, const std::string& file) {
   assumed.push_back(fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max)));
   result.toml += fmt::format("[[objects]]\ntype = \"mesh\"\nfile = '''{}'''\n", file);
   result.assumed =
-      fmt::format("assumed: {}, light of the sky; -D changes all of it", fmt::join(assumed, ", "));
+      fmt::format("assumed: {}, light of the sky; -D changes them", fmt::join(assumed, ", "));
   return result;
 }
 
