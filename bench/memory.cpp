@@ -1,13 +1,11 @@
 #include "memory.h"
 
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 
-#include "error.h"
 #include "image/output.h"
+#include "process.h"
 #include "render/kernel.h"
 #include "render/render.h"
 #include "scenes.h"
@@ -18,21 +16,7 @@ namespace {
 /// The most memory that a piece of work had in use at once, in a process of its own.  [bytes]
 template <class Work>
 double peak_bytes(Work&& work) {
-  const pid_t child = fork();
-  if (child < 0) throw Error("a process cannot be started");
-  if (child == 0) {
-    try {
-      work();
-    } catch (...) {
-      _exit(1);
-    }
-    _exit(0);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  if (status != 0) throw Error("a render in a process of its own failed");
-  return 1024. * double(usage.ru_maxrss);
+  return 1024. * double(finish(start(work)).ru_maxrss);
 }
 
 }  // namespace
