@@ -1,6 +1,6 @@
 #pragma once
 /// One vocabulary for one lane and for many: the core is written over a real type F that is
-/// `double` (the reference), `float`, or a SIMD batch with one pixel a lane. Only this header knows
+/// `double` (the reference), `float`, or a SIMD batch with one pixel a lane. Only this header includes
 /// the SIMD library.
 #include <cmath>
 #include <concepts>

@@ -55,7 +55,8 @@ void fig6_single(Reproduced& out) {
   out.page.checks(
       out.rows,
       fmt::format("Mean PSNR over {} seeds at 4 spp against the exact picture, peak 1. The ranges "
-                  "are ±{} dB about what an independent prototype measured on the same scenes.",
+                  "are ±{} dB about what an earlier implementation, not part of this project, "
+                  "measured on the same scenes.",
                   seeds, tolerance));
   for (std::size_t c = 0; c < comparisons.size(); ++c) {
     const Configuration& at = configurations[c];

@@ -143,7 +143,8 @@ void fig7_single(Reproduced& out) {
       "true of a scene and not a theorem.");
   out.page.checks(out.rows,
                   fmt::format("Mean PSNR over {} seeds. The ranges are ±{} dB about what an "
-                              "independent prototype measured on the same scenes, and ±{} dB about "
+                              "earlier implementation, not part of this project, measured on the "
+                              "same scenes, and ±{} dB about "
                               "the limit for the two estimators that have come to theirs.",
                               seeds, tolerance, limit_tolerance));
 }
