@@ -191,7 +191,8 @@ std::vector<Case> cases() {
 std::string describe(const Case& c, const RenderSettings& settings) {
   return std::string(c.name) + (c.rgb ? ", RGB, " : ", grey, ") +
          std::visit([](const auto& p) { return std::string(p.name); }, c.phase) + ", " +
-         settings.estimator + " with " + settings.mix_with;
+         settings.estimator + " with " +
+         (settings.mix_with == MixWith::distance ? "distance" : "equidistant");
 }
 
 /// What each sum must be on average, by the form's own definition of it from exact A, O and U.
@@ -209,7 +210,7 @@ TEST_P(EveryArithmetic, sums_of_every_placement_and_form_are_unbiased) {
     Scene scene = scene_of(c);
     const Truth truth = mean_truth(c, scene);
     Renderer renderer(scene);
-    const auto judge = [&](const auto& placement, const auto& form, const char* mix_with) {
+    const auto judge = [&](const auto& placement, const auto& form, MixWith mix_with) {
       RenderSettings settings = scene.render;
       settings.estimator = std::string(placement.name) + "+" + form.name;
       settings.mix_with = mix_with;
@@ -260,9 +261,9 @@ TEST_P(EveryArithmetic, sums_of_every_placement_and_form_are_unbiased) {
     };
     [&]<class... P>(const std::variant<P...>*) {
       const auto forms = [&]<class... M>(const auto& placement, const std::variant<M...>*) {
-        (judge(placement, M{}, "distance"), ...);
+        (judge(placement, M{}, MixWith::distance), ...);
         if constexpr (std::same_as<std::remove_cvref_t<decltype(placement)>, Mixed>)
-          judge(placement, Ratio{}, "equidistant");
+          judge(placement, Ratio{}, MixWith::equidistant);
       };
       (forms(P{}, static_cast<const Forms*>(nullptr)), ...);
     }(static_cast<const Placements*>(nullptr));

@@ -116,7 +116,7 @@ TEST(Objects, complain_about_textures_at_their_key) {
 }
 
 TEST(Objects, refuse_shapes_without_extent) {
-  EXPECT_THAT(error_of("type = \"box\"\nmax = [1, -1, 1]\n"), HasSubstr("the box is empty"));
+  EXPECT_THAT(error_of("type = \"box\"\nmax = [1, -1, 1]\n"), HasSubstr("is an empty box"));
   EXPECT_THAT(error_of("type = \"rectangle\"\nu = [1, 1, 0]\nv = [-2, -2, 0]\n"),
               HasSubstr("objects.0 has no area"));
   EXPECT_THAT(error_of("type = \"sphere\"\nradius = 0\n"), HasSubstr("a number above 0 m"));

@@ -15,8 +15,10 @@
 namespace airlight {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 Object object(Mesh mesh) { return {"part", std::move(mesh), {}}; }
@@ -69,7 +71,7 @@ TEST(LookAround, measures_distances) {
 
 TEST(StandIn, sees_a_thing_from_outside) {
   const StandIn stand_in = stand_in_for(cube(), "cube.obj");
-  EXPECT_THAT(stand_in.assumed, HasSubstr("a camera outside at "));
+  EXPECT_THAT(stand_in.remark({}), HasSubstr("a camera outside at "));
   const Scene scene = scene_of(stand_in);
   EXPECT_GT(length(scene.camera.position - Vec3<double>{1, 1, 1}), 3);
   const Box& fog = std::get<Box>(scene.medium->shape);
@@ -81,7 +83,7 @@ TEST(StandIn, sees_a_thing_from_outside) {
 
 TEST(StandIn, sees_a_room_from_inside_with_the_sun_in_its_window) {
   const StandIn stand_in = stand_in_for(room(), "room.obj");
-  EXPECT_THAT(stand_in.assumed, HasSubstr("a camera in the room at "));
+  EXPECT_THAT(stand_in.remark({}), HasSubstr("a camera in the room at "));
   const Scene scene = scene_of(stand_in);
   const Vec3<double> eye = scene.camera.position;
   EXPECT_TRUE(eye.x > 0 && eye.x < 6 && eye.y > 0 && eye.y < 3 && eye.z > 0 && eye.z < 4);
@@ -95,7 +97,7 @@ TEST(StandIn, keeps_the_camera_and_the_lights_of_a_model) {
   model.camera = Camera{{5, 6, 7}, {0, 1, 0}, {0, 1, 0}, 33};
   model.lights.push_back(Directional{{1, 2, 3}, {0, 0.6, -0.8}, 0.5});
   const StandIn stand_in = stand_in_for(model, "cube.obj");
-  EXPECT_THAT(stand_in.assumed, StartsWith("assumed: fog from "));
+  EXPECT_THAT(stand_in.remark({}), StartsWith("assumed: fog from "));
   const Scene scene = scene_of(stand_in);
   EXPECT_EQ(scene.camera.position, Vec3<double>(5, 6, 7));
   EXPECT_EQ(scene.camera.fov, 33);
@@ -115,6 +117,19 @@ TEST(StandIn, makes_a_scene_of_a_model_file) {
   EXPECT_EQ(scene.render.spp, 3);
   EXPECT_EQ(scene.camera.fov, 20);
   EXPECT_THAT(scene.assumptions, Contains(StartsWith("assumed: a camera outside at ")));
+}
+
+TEST(StandIn, tells_only_what_was_not_changed) {
+  const StandIn stand_in = stand_in_for(cube(), "cube.obj");
+  EXPECT_THAT(stand_in.remark({}), AllOf(HasSubstr("a camera outside at"), HasSubstr("azimuth 70"),
+                                         HasSubstr("elevation 40"), HasSubstr("fog from"),
+                                         HasSubstr("light of the sky")));
+  EXPECT_THAT(stand_in.remark({"camera.position=[9, 9, 9]", "lights.0.azimuth=10"}),
+              StartsWith("assumed: a sun at elevation 40, fog from"));
+  EXPECT_THAT(stand_in.remark({"lights.0.direction=[0, -1, 0]"}), Not(HasSubstr("a sun")));
+  EXPECT_THAT(stand_in.remark({"media.0.shape.max=[9, 9, 9]"}), Not(HasSubstr("fog")));
+  EXPECT_THAT(stand_in.remark({"media.0.sigma_t=1"}), HasSubstr("fog from"));
+  EXPECT_EQ(stand_in.remark({"camera={}", "lights=[]", "media=[]", "background=0"}), "");
 }
 
 }  // namespace airlight

@@ -3,7 +3,24 @@
 #include "error.h"
 #include "flags.h"
 #include "numbers.h"
+#include "render/prepare.h"
 #include "scene/load_scene.h"
+
+namespace {
+
+/// Throws Error for an estimator that is not known, at the flag that named it.
+void check_estimator(const airlight::Scene& scene, const std::vector<airlight::Override>& changes) {
+  try {
+    airlight::estimator_for(scene.render);
+  } catch (const airlight::Error& error) {
+    std::string place;
+    for (const airlight::Override& change : changes)
+      if (change.path == "render.estimator") place = change.said + ": ";
+    throw airlight::Error(place + error.what());
+  }
+}
+
+}  // namespace
 
 void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without) {
   verb.add_option("SCENE", file_, "a scene (.toml) or a model (.obj, .gltf, .glb)")
@@ -44,5 +61,7 @@ airlight::Scene SceneFlags::load() const {
   std::vector<airlight::Override> changes = changes_;
   for (airlight::Override& change : changes)
     if (change.said == "--samples-per-ray all") change.value = "0";
-  return airlight::load_scene(file_, changes);
+  airlight::Scene scene = airlight::load_scene(file_, changes);
+  check_estimator(scene, changes);
+  return scene;
 }

@@ -8,19 +8,10 @@
 #include <numbers>
 
 #include "error.h"
+#include "scene/described.h"
 
 namespace airlight {
 namespace {
-
-/// The names of a family's members, as "a, b, c".
-template <class Family>
-std::string names_of() {
-  std::string names;
-  [&]<class... Members>(const std::variant<Members...>*) {
-    ((names += std::string(names.empty() ? "" : ", ") + Members::name), ...);
-  }(static_cast<const Family*>(nullptr));
-  return names;
-}
 
 bool has_wide_disc(const Scene& scene) {
   for (const Lights& light : scene.lights)
@@ -60,21 +51,16 @@ Estimators estimator_for(const RenderSettings& settings) {
     for (const ShortName& s : short_names) names += std::string(s.name) + ", ";
     throw Error(fmt::format(
         "render.estimator = \"{}\" is not known here; accepted: {}{}, or placement+form with a "
-        "placement of {} "
-        "and a form of {}",
-        settings.estimator, names, ClosedForm::name, names_of<Placements>(), names_of<Forms>()));
+        "placement of {} and a form of {}",
+        settings.estimator, names, ClosedForm::name, family_words<Placements>(),
+        family_words<Forms>()));
   }
   if (auto* sampled = std::get_if<Sampled>(&*estimator)) {
     sampled->intersect_every_step = settings.edges == Edges::per_step;
     if (auto* mixed = std::get_if<Mixed>(&sampled->placement)) {
       mixed->part = settings.mix_weight;
-      if (settings.mix_with == Equidistant::name)
-        mixed->partner = Mixed::Partner::equidistant;
-      else if (settings.mix_with == Distance::name)
-        mixed->partner = Mixed::Partner::distance;
-      else
-        throw Error(fmt::format("render.mix_with = \"{}\" is not known here; accepted: {}, {}",
-                                settings.mix_with, Equidistant::name, Distance::name));
+      mixed->partner = settings.mix_with == MixWith::equidistant ? Mixed::Partner::equidistant
+                                                                 : Mixed::Partner::distance;
     }
   }
   return *estimator;

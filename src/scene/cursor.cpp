@@ -26,13 +26,23 @@ void Cursor::refuse(std::string_view what) const {
   throw Error(fmt::format("{}: {} = {} {}", value_->place.text(), path_, value_->text(), what));
 }
 
-void Cursor::complain(std::string_view what) const {
-  throw Error(
-      fmt::format("{}: {} {}", value_->place.text(), path_.empty() ? "the scene" : path_, what));
+void Cursor::complain(std::string_view what, const std::vector<std::string>& about) const {
+  const Place* changed = about.empty() ? value_->overridden() : nullptr;
+  const Place* there = nullptr;
+  for (const std::string& key : about)
+    if (const auto found = find(key)) {
+      if (!changed) changed = found->value().overridden();
+      if (!there) there = &found->value().place;
+    }
+  const Place& place = changed ? *changed : there ? *there : value_->place;
+  throw Error(fmt::format("{}: {} {}", place.text(), path_.empty() ? "the scene" : path_, what));
 }
 
 void Cursor::lacks(const std::string& key, std::string_view accepted) const {
-  throw Error(fmt::format("{}: {} is missing; {}", value_->place.text(), path_of(key), accepted));
+  const auto type = find("type");
+  const bool asked = type && type->value().place.is_override();
+  const Place& place = asked ? type->value().place : value_->place;
+  throw Error(fmt::format("{}: {} is missing; {}", place.text(), path_of(key), accepted));
 }
 
 void Cursor::unknown(const std::string& key, std::string_view accepted) const {

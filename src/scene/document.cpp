@@ -122,6 +122,22 @@ std::string Place::text() const {
   return line > 0 ? fmt::format("{}:{}:{}", *source, line, column) : *source;
 }
 
+const Place* Value::overridden() const {
+  if (place.is_override()) return &place;
+  const auto first_of = [](const auto& parts, auto&& value_of_part) -> const Place* {
+    for (const auto& part : parts)
+      if (const Place* found = value_of_part(part).overridden()) return found;
+    return nullptr;
+  };
+  if (table())
+    return first_of(
+        *table(), [](const auto& entry) -> auto& { return entry.second; });
+  if (array())
+    return first_of(
+        *array(), [](const Value& value) -> auto& { return value; });
+  return nullptr;
+}
+
 std::string Value::text() const {
   const auto join = [](const auto& items, auto&& show) {
     std::string text;

@@ -15,6 +15,8 @@ struct Place {
   int line = 0;                               ///< from 1; 0 where there are no lines
   int column = 0;                             ///< from 1
 
+  bool is_override() const { return source && line == 0; }
+
   /// "fog.toml:14:24", or the override itself.
   std::string text() const;
 };
@@ -35,6 +37,9 @@ struct Value {
 
   const Table* table() const { return std::get_if<Table>(&data); }
   const Array* array() const { return std::get_if<Array>(&data); }
+
+  /// Where an override changed this value or a part of it; null if none did.
+  const Place* overridden() const;
 
   /// As a file would say it, cut after a few dozen characters.
   std::string text() const;

@@ -22,7 +22,8 @@ Scene scene_around(const std::filesystem::path& path, const std::vector<Override
   Files files{path.parent_path()};
   files.model = [&](const std::filesystem::path&) { return std::move(model); };
   Scene scene = scene_of(parse_document(stand_in.toml, path.string()), files, overrides);
-  scene.assumptions.push_back(stand_in.assumed);
+  if (std::string remark = stand_in.remark(overrides); !remark.empty())
+    scene.assumptions.push_back(std::move(remark));
   return scene;
 }
 

@@ -58,14 +58,21 @@ inline void read_numbers(const Cursor& at, double* numbers, std::size_t count, c
   for (std::size_t i = 0; i < count; ++i) numbers[i] = read_number(at.element(i), range, wanted);
 }
 
+/// The keys of a described struct.
+template <Described T>
+std::vector<std::string> keys_of() {
+  std::vector<std::string> keys;
+  T::describe([&](const char* key, auto&&...) { keys.push_back(key); });
+  return keys;
+}
+
 /// The parameters of a described struct from a table, which may have one more key, `besides`.
 template <Described T>
 void read_table(const Cursor& at, T& value, const char* besides = nullptr) {
   const Value::Table* table = at.value().table();
   if (!table) at.refuse("is not a table");
-  std::vector<std::string> keys;
+  std::vector<std::string> keys = keys_of<T>();
   if (besides) keys.push_back(besides);
-  T::describe([&](const char* key, auto&&...) { keys.push_back(key); });
   for (const auto& [key, unused] : *table)
     if (std::ranges::find(keys, key) == keys.end())
       at.unknown(key, keys.empty() ? "nothing" : accepted_words(keys));
@@ -79,6 +86,23 @@ void read_table(const Cursor& at, T& value, const char* besides = nullptr) {
       });
 }
 
+/// A table whose type an override changed, without what the file says for other types.
+template <class Family, class Member>
+Value for_new_type(const Cursor& at) {
+  Value result = at.value();
+  std::vector<std::string> others;
+  for_each_member<Family>([&](auto member) {
+    for (std::string& key : keys_of<decltype(member)>()) others.push_back(std::move(key));
+  });
+  const std::vector<std::string> own = keys_of<Member>();
+  std::erase_if(std::get<Value::Table>(result.data), [&](const auto& entry) {
+    const auto& [key, given] = entry;
+    return std::ranges::find(others, key) != others.end() &&
+           std::ranges::find(own, key) == own.end() && !given.overridden();
+  });
+  return result;
+}
+
 /// The member of a family that the key "type" names.
 template <class Family>
 void read_family(const Cursor& at, Family& value) {
@@ -90,7 +114,12 @@ void read_family(const Cursor& at, Family& value) {
   for_each_member<Family>([&](auto member) {
     if (!word || *word != member.name) return;
     known = true;
-    read_table(at, member, "type");
+    if (type->value().place.is_override()) {
+      const Value table = for_new_type<Family, decltype(member)>(at);
+      read_table(at.instead(table), member, "type");
+    } else {
+      read_table(at, member, "type");
+    }
     value = member;
   });
   if (!known) type->refuse("is not known here; accepted: " + family_words<Family>());

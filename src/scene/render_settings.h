@@ -8,6 +8,7 @@
 namespace airlight {
 
 enum class Edges { cached, per_step };
+enum class MixWith { equidistant, distance };
 enum class PixelFilter { box, tent, gaussian };
 enum class Visibility { embree, analytic };
 enum class InstructionSet { best, reference, scalar, baseline, avx2, avx512 };
@@ -17,6 +18,11 @@ inline constexpr Word<Edges> words<Edges>[] = {
     {"cached", Edges::cached, "the trapezoids of a ray are found once"},
     {"per_step", Edges::per_step,
      "the medium is intersected at every sample, as a plain march does"},
+};
+template <>
+inline constexpr Word<MixWith> words<MixWith>[] = {
+    {"equidistant", MixWith::equidistant, "samples spread evenly along the ray"},
+    {"distance", MixWith::distance, "samples by what passes back to the camera"},
 };
 template <>
 inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
@@ -45,7 +51,7 @@ inline constexpr Word<InstructionSet> words<InstructionSet>[] = {
 struct RenderSettings {
   std::string estimator = "rewv";  ///< a short name, or placement+form
   Edges edges = Edges::cached;
-  std::string mix_with = "distance";
+  MixWith mix_with = MixWith::distance;
   double mix_weight = 0.5;
   std::int64_t spp = 16;
   std::int64_t samples_per_ray = 4;  ///< 0: all

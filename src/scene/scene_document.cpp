@@ -10,13 +10,11 @@ namespace {
 
 void check(const Camera& camera, const Cursor& at) {
   const auto view = unit_vector(camera.target - camera.position);
-  if (!view) at.at_or_here("target").complain("equals camera.position: the camera looks nowhere");
+  if (!view) at.complain("looks nowhere: its target equals its position", {"target", "position"});
   const auto up = unit_vector(camera.up);
   if (!up) at.at_or_here("up").refuse("is no direction: at least one number must not be 0");
   if (length(cross(*view, *up)) >= 1e-6) return;
-  if (const auto given = at.find("up"))
-    given->refuse("is parallel to the view: accepted is any other direction");
-  at.complain("looks straight up or down, parallel to its up: give camera.up another direction");
+  at.complain("looks along its up: give camera.up another direction", {"up", "target", "position"});
 }
 
 void check(const RenderSettings& render, const Cursor& at) {

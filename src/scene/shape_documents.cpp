@@ -5,6 +5,7 @@
 #include "error.h"
 #include "scene/corners.h"
 #include "scene/polyhedron.h"
+#include "scene/ways.h"
 
 namespace airlight {
 namespace {
@@ -15,12 +16,11 @@ Shapes shape_of(const Box& box, const Cursor& at) {
 }
 
 Shapes shape_of(const ConvexDocument& document, const Cursor& at) {
-  if (document.planes.has_value() == document.points.has_value())
-    at.complain("takes either planes or points");
+  const bool by_planes = way_taken(at, {{"planes"}, {"points"}}) == 0;
   try {
-    return document.planes ? polyhedron_inside(*document.planes) : hull_of(*document.points);
+    return by_planes ? polyhedron_inside(*document.planes) : hull_of(*document.points);
   } catch (const Error& error) {
-    at.at_or_here(document.planes ? "planes" : "points").complain(error.what());
+    at.at_or_here(by_planes ? "planes" : "points").complain(error.what());
   }
 }
 

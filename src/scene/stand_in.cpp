@@ -25,6 +25,11 @@ struct View {
   Bounds fog;
 };
 
+/// Whether a path is that of a value or of a part of it.
+bool is_within(const std::string& path, const std::string& whole) {
+  return path == whole || path.starts_with(whole + ".");
+}
+
 std::string exact(Vec v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
 /// For a sentence.
@@ -163,7 +168,6 @@ std::string fog_table(const Bounds& box) {
 StandIn stand_in_for(const Model& model, const std::string& file) {
   const View view = view_of(model);
   StandIn result;
-  std::vector<std::string> assumed;
   // A bright sky for the windows of a room; behind a thing a dim one, before which lit fog shows.
   result.toml = view.is_room ? "background = [0.9, 1.05, 1.3]\nambient = [0.2, 0.21, 0.24]\n"
                              : "background = [0.04, 0.05, 0.07]\nambient = [0.1, 0.11, 0.13]\n";
@@ -171,22 +175,42 @@ StandIn stand_in_for(const Model& model, const std::string& file) {
     result.toml += camera_table(*model.camera);
   } else {
     result.toml += camera_table(view.camera);
-    assumed.push_back(fmt::format("a camera {} at {}", view.is_room ? "in the room" : "outside",
-                                  text(view.camera.position)));
+    result.assumed.push_back(
+        {{"camera.position"},
+         fmt::format("a camera {} at {}", view.is_room ? "in the room" : "outside",
+                     text(view.camera.position))});
   }
   if (model.lights.empty()) {
     result.toml += sun_table(view);
-    assumed.push_back(fmt::format("a sun at azimuth {:.0f}, elevation {:.0f}", view.sun.azimuth,
-                                  view.sun.elevation));
+    const std::string direction = "lights.0.direction";
+    result.assumed.push_back({{"lights.0.azimuth", direction},
+                              fmt::format("a sun at azimuth {:.0f}", view.sun.azimuth)});
+    result.assumed.push_back({{"lights.0.elevation", direction},
+                              fmt::format("a sun at elevation {:.0f}", view.sun.elevation)});
   }
   for (const Lights& light : model.lights)
     result.toml += std::visit([](const auto& l) { return light_table(l); }, light);
   result.toml += fog_table(view.fog);
-  assumed.push_back(fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max)));
+  result.assumed.push_back(
+      {{"media.0.shape"},
+       fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max))});
+  result.assumed.push_back({{"background", "ambient"}, "light of the sky"});
   result.toml += fmt::format("[[objects]]\ntype = \"mesh\"\nfile = '''{}'''\n", file);
-  result.assumed =
-      fmt::format("assumed: {}, light of the sky; -D changes them", fmt::join(assumed, ", "));
   return result;
+}
+
+std::string StandIn::remark(const std::vector<Override>& changes) const {
+  std::vector<std::string> texts;
+  for (const Assumption& assumption : assumed) {
+    const bool is_changed = std::ranges::any_of(changes, [&](const Override& change) {
+      return std::ranges::any_of(assumption.paths, [&](const std::string& path) {
+        return is_within(change.path, path) || is_within(path, change.path);
+      });
+    });
+    if (!is_changed) texts.push_back(assumption.text);
+  }
+  if (texts.empty()) return "";
+  return fmt::format("assumed: {}; -D changes them", fmt::join(texts, ", "));
 }
 
 }  // namespace airlight

@@ -17,9 +17,11 @@ Parts WallObject::build(const Cursor& at) const {
   const auto [x0, y0] = window_min;
   const auto [x1, y1] = window_max;
   if (x1 <= x0 || y1 <= y0)
-    at.at_or_here("window_max").complain("must lie above window_min in x and y");
+    at.complain("has no window: window_max must lie above window_min in x and y",
+                {"window_max", "window_min"});
   if (x1 > width || y1 > height)
-    at.at_or_here("window_max").complain("must not lie beyond the wall's width and height");
+    at.complain("is too small: window_max must not lie beyond its width and height",
+                {"window_max", "width", "height"});
   if (bar_width * double(columns - 1) >= x1 - x0 || bar_width * double(rows - 1) >= y1 - y0)
     at.complain("has no openings left: the bars are as wide as the window");
   Mesh mesh;
