@@ -22,6 +22,7 @@ set(public_headers
   scene/render_settings.h
   scene/scene.h
   render/film.h
+  render/film_layout.h
   render/probe.h
   render/render.h
   render/version.h

@@ -165,8 +165,8 @@ Truth mean_truth(const Case& c, const Scene& scene) {
 
 Estimate<double> mean_over_picture(const Film& film) {
   Estimate<double> sum;
-  for (const auto& pixel : film.pixels) sum += mean_estimate(pixel);
-  return sum * (1. / double(film.pixels.size()));
+  for (const auto& pixel : film.pixels()) sum += mean_estimate(pixel);
+  return sum * (1. / double(film.pixel_count()));
 }
 
 std::vector<Case> cases() {
@@ -220,12 +220,12 @@ TEST_P(EveryArithmetic, sums_of_every_placement_and_form_are_unbiased) {
       const bool mixed = std::same_as<std::remove_cvref_t<decltype(placement)>, Mixed>;
       settings.spp = 16 * (mixed ? 4 : 1) * (c.rgb ? 2 + 2 * !mixed : 1);
       std::array<std::array<std::vector<double>, 3>, 4> values;
-      Film pooled(scene.resolution, {0, 0, scene.resolution.width, scene.resolution.height});
+      std::optional<Film> pooled;
       for (int seed = 0; seed < seeds; ++seed) {
         settings.seed = seed;
         const Rendered rendered = renderer.render(settings);
         ASSERT_EQ(rendered.rejected, 0);
-        pooled.merge(rendered.film);
+        pooled ? pooled->merge(rendered.film) : void(pooled.emplace(rendered.film));
         const Estimate<double> e = mean_over_picture(rendered.film);
         for (int k = 0; k < 3; ++k) {
           values[0][k].push_back(e.plain[k]), values[1][k].push_back(e.analytic[k]);
@@ -253,9 +253,9 @@ TEST_P(EveryArithmetic, sums_of_every_placement_and_form_are_unbiased) {
       // The quotient is biased at finite N; pooled over all seeds the bias is far below what can be
       // seen.
       Rgb<double> radiance;
-      for (const auto& pixel : pooled.pixels) radiance += mean_estimate(pixel).radiance();
+      for (const auto& pixel : pooled->pixels()) radiance += mean_estimate(pixel).radiance();
       for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(radiance[k] / double(pooled.pixels.size()), truth.lit[k],
+        EXPECT_NEAR(radiance[k] / double(pooled->pixel_count()), truth.lit[k],
                     (4 * largest_error + 4 * rounding) * truth.open[k])
             << "pooled, channel " << k << ", " << describe(c, settings);
     };
@@ -284,10 +284,10 @@ TEST_P(EveryArithmetic, a_march_that_intersects_every_step_has_the_same_sums) {
     const Film cached = renderer.render(settings).film;
     settings.edges = Edges::per_step;
     const Film stepped = renderer.render(settings).film;
-    for (std::size_t i = 0; i < cached.pixels.size(); ++i)
+    for (std::size_t i = 0; i < cached.pixel_count(); ++i)
       for (int k = 0; k < 3; ++k) {
-        const double a = mean_estimate(cached.pixels[i]).plain[k];
-        EXPECT_NEAR(mean_estimate(stepped.pixels[i]).plain[k], a, 2e-5 * a + 1e-9)
+        const double a = mean_estimate(cached.pixel(i)).plain[k];
+        EXPECT_NEAR(mean_estimate(stepped.pixel(i)).plain[k], a, 2e-5 * a + 1e-9)
             << describe(c, settings);
       }
   }

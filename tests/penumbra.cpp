@@ -146,7 +146,7 @@ TEST_P(Penumbra, in_fog_is_the_mean_over_the_disc) {
           const Rendered rendered = renderer.render(settings);
           ASSERT_EQ(rendered.rejected, 0);
           Estimate<double> mean;
-          for (const auto& pixel : rendered.film.pixels) mean += mean_estimate(pixel);
+          for (const auto& pixel : rendered.film.pixels()) mean += mean_estimate(pixel);
           plain.push_back(mean.plain.g / 36), analytic.push_back(mean.analytic.g / 36);
           occluded.push_back(mean.occluded.g / 36), unoccluded.push_back(mean.unoccluded.g / 36);
         }
@@ -195,7 +195,7 @@ TEST_P(Penumbra, on_a_floor_in_fog_is_the_mean_over_the_disc) {
       settings.seed = seed;
       const Film film = renderer.render(settings).film;
       for (std::size_t i = 0; i < 36; ++i)
-        values[i].push_back(film.pixels[i].surface.r / film.pixels[i].sample_count());
+        values[i].push_back(film.pixel(i).surface.r / film.pixel(i).sample_count());
     }
     int soft = 0;
     for (int y = 0; y < 6; ++y)

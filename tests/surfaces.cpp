@@ -84,8 +84,8 @@ TEST_P(EveryArithmetic, a_wall_without_fog_reflects_albedo_over_pi) {
   expect_layer(film, "albedo", {0.2, 0.5, 0.8});
   expect_layer(film, "normal", {0, 0, 1});
   expect_layer(film, "transmittance", Colour(1.));
-  EXPECT_NEAR(film.pixels[0].depth, 7, 7 * 1e-6);
-  EXPECT_EQ(film.pixels[0].object, 1);
+  EXPECT_NEAR(film.pixel(0).depth, 7, 7 * 1e-6);
+  EXPECT_EQ(film.pixel(0).object, 1);
 }
 
 TEST_P(EveryArithmetic, a_wall_inside_the_fog_is_dimmed_on_both_legs) {
@@ -146,8 +146,8 @@ TEST_P(EveryArithmetic, the_background_is_seen_through_the_fog) {
   expect_colour(film.radiance(0, 0), test::exp_of({0.3, 1, 3}, 2) * Colour(1, 2, 3), "radiance");
   expect_layer(film, "albedo", {});
   expect_layer(film, "normal", {});
-  EXPECT_EQ(film.pixels[0].depth, 0);
-  EXPECT_EQ(film.pixels[0].object, 0);
+  EXPECT_EQ(film.pixel(0).depth, 0);
+  EXPECT_EQ(film.pixel(0).object, 0);
 }
 
 TEST_P(EveryArithmetic, fog_glows_up_to_the_first_surface) {
@@ -326,7 +326,7 @@ TEST_P(EveryArithmetic, rooms_agree_with_brute_force) {
               if (dot(n, ray.direction) > 0) n = -n;
               same = same && std::abs(normal.row(y)[3 * x + c] - n[c]) < 1e-6;
             }
-            const auto& pixel = film.pixels[std::size_t(y * film.crop.width + x)];
+            const auto& pixel = film.pixel(std::size_t(y * film.crop.width + x));
             const int id = first ? int(std::find_if(room.sheets.begin(), room.sheets.end(),
                                                     [&, s = first](const Sheet& sheet) {
                                                       return sheet.normal() == s->normal();
@@ -357,7 +357,7 @@ TEST(ClosedFormRoom, agrees_with_brute_force_in_every_sum) {
       for (int x = 0; x < film.crop.width; x += 3) {
         const CameraRay ray = test::camera_ray(scene, x + 0.5, y + 0.5);
         const Colour want = truth.in_scatter(ray) + truth.emission(ray);
-        const Colour got = mean_estimate(film.pixels[std::size_t(y * film.crop.width + x)]).plain;
+        const Colour got = mean_estimate(film.pixel(std::size_t(y * film.crop.width + x))).plain;
         for (int c = 0; c < 3; ++c)
           worst.see(std::abs(got[c] - want[c]) / (want[c] + 1e-6),
                     std::to_string(x) + "," + std::to_string(y));

@@ -8,23 +8,106 @@
 #include "error.h"
 
 namespace airlight {
+namespace {
 
-template <class Real>
-template <class Other>
-void PixelSums<Real>::add(const std::array<Other, count>& other) {
-  const bool first = !(sample_count() > 0);
-  Row mine = row();
-  for (std::size_t i = 0; i < added; ++i) mine[i] += Real(other[i]);
-  if (first)
-    for (std::size_t i = added; i < count; ++i) mine[i] = Real(other[i]);
-  *this = std::bit_cast<PixelSums>(mine);
+std::size_t blocks(int pixels) {
+  return std::size_t((pixels + film_block::side - 1) / film_block::side);
 }
 
-template void PixelSums<float>::add(const std::array<float, count>&);
-template void PixelSums<float>::add(const std::array<double, count>&);
+double per_sample(const PixelSums& pixel) {
+  const double n = pixel.sample_count();
+  return n > 0 ? 1 / n : 0;
+}
 
-Film::Film(Resolution full_, PixelRect crop_)
-    : full(full_), crop(crop_), pixels(std::size_t(crop_.width) * std::size_t(crop_.height)) {}
+Rgb<double> in_scatter(const PixelSums& pixel) { return mean_estimate(pixel).radiance(); }
+
+Rgb<double> surface(const PixelSums& pixel) { return pixel.surface * per_sample(pixel); }
+
+Rgb<double> beauty(const PixelSums& pixel) { return in_scatter(pixel) + surface(pixel); }
+
+/// The difference of the two halves, each with its own quotient.
+Rgb<double> halves_apart(const PixelSums& pixel) {
+  const auto half = [&](std::size_t i) {
+    return (pixel.in_scatter[i] * (1 / pixel.samples[i])).radiance();
+  };
+  return half(0) - half(1);
+}
+
+const std::vector<std::string> rgb = {"R", "G", "B"};
+
+}  // namespace
+
+Estimate<double> mean_estimate(const PixelSums& pixel) {
+  Estimate<double> sum = pixel.in_scatter[0];
+  sum += pixel.in_scatter[1];
+  return sum * per_sample(pixel);
+}
+
+Film::Film(Resolution full_, PixelRect crop_) : Film(full_, crop_, {}, {""}) {}
+
+Film::Film(Resolution full_, PixelRect crop_, FilmLayout layout_, std::vector<std::string> groups_)
+    : full(full_),
+      crop(crop_),
+      layout(layout_),
+      groups(std::move(groups_)),
+      blocks_across_(blocks(crop_.width)),
+      sums_(blocks_across_ * blocks(crop_.height) * film_block::pixels *
+            std::size_t(layout.sums())),
+      features_(sums_.size() / std::size_t(layout.sums()) * std::size_t(layout.features())),
+      samples_(sums_.size() / std::size_t(layout.sums()) * 2) {}
+
+Film::Place Film::place(int x, int y) const noexcept {
+  constexpr int side = film_block::side;
+  return {std::size_t(y / side) * blocks_across_ + std::size_t(x / side),
+          film_block::index(x % side, y % side)};
+}
+
+Film::Place Film::place(std::size_t index) const noexcept {
+  return place(int(index % std::size_t(crop.width)), int(index / std::size_t(crop.width)));
+}
+
+FilmPixels Film::at(int x, int y) noexcept {
+  const auto [block, index] = place(x, y);
+  const std::size_t rows = block * film_block::pixels;
+  return {sums_.data() + rows * std::size_t(layout.sums()) + index,
+          features_.data() + rows * std::size_t(layout.features()) + index,
+          samples_.data() + rows * 2 + index};
+}
+
+PixelSums Film::pixel(std::size_t pixel, int group) const {
+  const auto [block, index] = place(pixel);
+  const auto row = [&](const auto& numbers, int rows, int i) {
+    return double(numbers[(block * std::size_t(rows) + std::size_t(i)) * film_block::pixels +
+                          std::size_t(index)]);
+  };
+  const auto colour = [&](const auto& numbers, int rows, int i) {
+    return Rgb<double>(row(numbers, rows, i), row(numbers, rows, i + 1), row(numbers, rows, i + 2));
+  };
+  const auto estimate = [&](const auto& numbers, int rows, int i) {
+    Estimate<double> e;
+    if (layout.plain) e.plain = colour(numbers, rows, i), i += 3;
+    if (layout.ratio) {
+      e.analytic = colour(numbers, rows, i);
+      e.occluded = colour(numbers, rows, i + 3);
+      e.unoccluded = colour(numbers, rows, i + 6);
+    }
+    return e;
+  };
+  const int sums = layout.sums(), features = layout.features();
+  PixelSums result;
+  result.in_scatter[1] = estimate(features_, features, layout.second_half(group));
+  result.in_scatter[0] = result.in_scatter[1] * -1.;
+  result.in_scatter[0] += estimate(sums_, sums, layout.in_scatter(group));
+  result.samples = {row(samples_, 2, 0), row(samples_, 2, 1)};
+  result.surface = colour(sums_, sums, layout.surface(group));
+  result.transmittance = colour(features_, features, FilmLayout::transmittance);
+  result.albedo = colour(features_, features, FilmLayout::albedo);
+  const Rgb<double> normal = colour(features_, features, FilmLayout::normal);
+  result.normal = {normal.r, normal.g, normal.b};
+  result.depth = row(features_, features, FilmLayout::depth);
+  result.object = row(features_, features, FilmLayout::object);
+  return result;
+}
 
 void Film::merge(const Film& other) {
   const auto place = [](const Film& film) {
@@ -35,54 +118,32 @@ void Film::merge(const Film& other) {
     throw Error(
         fmt::format("{} and {} cannot be merged; accepted: the same part of the same picture",
                     place(*this), place(other)));
-  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(other.pixels[i].row());
-}
-
-namespace {
-
-double per_sample(const PixelSums<float>& pixel) {
-  const double n = pixel.sample_count();
-  return n > 0 ? 1 / n : 0;
-}
-
-Rgb<double> in_scatter(const PixelSums<float>& pixel) { return mean_estimate(pixel).radiance(); }
-
-/// From the two halves, each with its own quotient: half their difference, with the weights of
-/// unequal halves.
-Rgb<double> standard_error(const PixelSums<float>& pixel) {
-  const double n0 = pixel.samples[0], n1 = pixel.samples[1];
-  if (!(n0 > 0) || !(n1 > 0)) return {};
-  const auto half = [&](int i) {
-    Estimate<double> sums;
-    sums.plain = Rgb<double>(pixel.in_scatter[i].plain);
-    sums.analytic = Rgb<double>(pixel.in_scatter[i].analytic);
-    sums.occluded = Rgb<double>(pixel.in_scatter[i].occluded);
-    sums.unoccluded = Rgb<double>(pixel.in_scatter[i].unoccluded);
-    return (sums * (1 / double(pixel.samples[i]))).radiance();
-  };
-  const Rgb<double> d = half(0) - half(1);
-  const double scale = std::sqrt(n0 * n1) / (n0 + n1);
-  return Rgb<double>(std::abs(d.r), std::abs(d.g), std::abs(d.b)) * scale;
-}
-
-const std::vector<std::string> rgb = {"R", "G", "B"};
-
-}  // namespace
-
-Estimate<double> mean_estimate(const PixelSums<float>& pixel) {
-  Estimate<double> sum;
-  for (const Estimate<float>& half : pixel.in_scatter) {
-    sum.plain += Rgb<double>(half.plain);
-    sum.analytic += Rgb<double>(half.analytic);
-    sum.occluded += Rgb<double>(half.occluded);
-    sum.unoccluded += Rgb<double>(half.unoccluded);
+  if (layout != other.layout || groups != other.groups)
+    throw Error(
+        "films of other sums or light groups cannot be merged; accepted: those of one scene and "
+        "one "
+        "estimator");
+  // Depth and object stay those of the first film that has samples.
+  constexpr std::size_t width = film_block::pixels;
+  const std::size_t features = std::size_t(layout.features());
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    const std::size_t feature = i / width % features;
+    const bool adds = feature < FilmLayout::added || feature > FilmLayout::object;
+    const std::size_t samples = i / (width * features) * 2 * width + i % width;
+    if (adds)
+      features_[i] += other.features_[i];
+    else if (samples_[samples] + samples_[samples + width] == 0)
+      features_[i] = other.features_[i];
   }
-  return sum * per_sample(pixel);
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i] += other.samples_[i];
 }
 
 Rgb<double> Film::radiance(int x, int y) const {
-  const PixelSums<float>& pixel = pixels[std::size_t(y) * std::size_t(crop.width) + std::size_t(x)];
-  return in_scatter(pixel) + Rgb<double>(pixel.surface) * per_sample(pixel);
+  const std::size_t index = std::size_t(y) * std::size_t(crop.width) + std::size_t(x);
+  Rgb<double> sum;
+  for (int group = 0; group < layout.groups; ++group) sum += beauty(pixel(index, group));
+  return sum;
 }
 
 Picture Film::picture() const {
@@ -92,60 +153,86 @@ Picture Film::picture() const {
   if (crop.width != full.width || crop.height != full.height)
     result.crop = Crop{crop.x0, crop.y0, full.width, full.height};
 
-  const auto row_of = [this](int y) { return &pixels[std::size_t(y) * std::size_t(crop.width)]; };
-  const auto colour_layer = [&](const char* name, auto value, Storage storage = Storage::colour) {
-    result.layers.push_back({name, rgb,
-                             [this, row_of, value](int y, std::span<float> row) {
-                               for (int x = 0; x < crop.width; ++x) {
-                                 const Rgb<double> c = value(row_of(y)[x]);
-                                 row[3 * x] = float(c.r), row[3 * x + 1] = float(c.g),
-                                         row[3 * x + 2] = float(c.b);
-                               }
+  const auto add_layer = [&](std::string name, std::vector<std::string> channels, Storage storage,
+                             auto put) {  // put(index of a pixel, its place in the row)
+    const std::size_t count = channels.size();
+    result.layers.push_back({std::move(name), std::move(channels),
+                             [this, put, count](int y, std::span<float> row) {
+                               const auto width = std::size_t(crop.width);
+                               for (std::size_t x = 0; x < width; ++x)
+                                 put(std::size_t(y) * width + x, &row[x * count]);
                              },
                              storage});
   };
-  const auto mean = [](auto member) {
-    return [member](const PixelSums<float>& p) { return Rgb<double>(p.*member) * per_sample(p); };
+  const auto put_colour = [](const Rgb<double>& c, float* out) {
+    out[0] = float(c.r), out[1] = float(c.g), out[2] = float(c.b);
   };
-  const auto sum = [](auto member) {
-    return [member](const PixelSums<float>& p) { return mean_estimate(p).*member; };
+  /// Of all groups together, or of one.
+  const auto sum_layer = [&](std::string name, auto value, Storage storage = Storage::colour,
+                             int first = 0, int count = 0) {
+    const int end = count ? first + count : layout.groups;
+    add_layer(std::move(name), rgb, storage, [=, this](std::size_t i, float* out) {
+      Rgb<double> sum;
+      for (int group = first; group < end; ++group) sum += value(pixel(i, group));
+      put_colour(sum, out);
+    });
   };
-  using P = PixelSums<float>;
-  using E = Estimate<double>;
-
-  colour_layer("beauty",
-               [](const P& p) { return in_scatter(p) + Rgb<double>(p.surface) * per_sample(p); });
-  colour_layer("in_scatter", in_scatter);
-  colour_layer("surface", mean(&P::surface));
-  colour_layer("transmittance", mean(&P::transmittance));
-  colour_layer("albedo", mean(&P::albedo));
-  result.layers.push_back({"normal",
-                           {"X", "Y", "Z"},
-                           [this, row_of](int y, std::span<float> row) {
-                             for (int x = 0; x < crop.width; ++x) {
-                               const P& p = row_of(y)[x];
-                               const Vec3<double> n = Vec3<double>(p.normal) * per_sample(p);
-                               row[3 * x] = float(n.x), row[3 * x + 1] = float(n.y),
-                                       row[3 * x + 2] = float(n.z);
-                             }
-                           },
-                           Storage::colour});
+  const auto mean_layer = [&](const char* name, auto member) {
+    add_layer(name, rgb, Storage::colour, [=, this](std::size_t i, float* out) {
+      const PixelSums p = pixel(i);
+      put_colour(p.*member * per_sample(p), out);
+    });
+  };
   const auto number_layer = [&](const char* name, const char* channel, auto member,
                                 Storage storage) {
-    result.layers.push_back({name,
-                             {channel},
-                             [this, row_of, member](int y, std::span<float> row) {
-                               for (int x = 0; x < crop.width; ++x) row[x] = row_of(y)[x].*member;
-                             },
-                             storage});
+    add_layer(name, {channel}, storage,
+              [=, this](std::size_t i, float* out) { *out = float(pixel(i).*member); });
   };
-  number_layer("depth", "Z", &P::depth, Storage::single);
-  number_layer("object", "id", &P::object, Storage::id);
-  colour_layer("standard_error", standard_error);
-  colour_layer("plain", sum(&E::plain), Storage::single);
-  colour_layer("analytic", sum(&E::analytic), Storage::single);
-  colour_layer("occluded", sum(&E::occluded), Storage::single);
-  colour_layer("unoccluded", sum(&E::unoccluded), Storage::single);
+  const auto mean_of = [](auto member) {
+    return [member](const PixelSums& p) { return mean_estimate(p).*member; };
+  };
+  using E = Estimate<double>;
+
+  sum_layer("beauty", beauty);
+  sum_layer("in_scatter", in_scatter);
+  sum_layer("surface", surface);
+  mean_layer("transmittance", &PixelSums::transmittance);
+  mean_layer("albedo", &PixelSums::albedo);
+  add_layer("normal", {"X", "Y", "Z"}, Storage::colour, [this](std::size_t i, float* out) {
+    const PixelSums p = pixel(i);
+    const Vec3<double> n = p.normal * per_sample(p);
+    out[0] = float(n.x), out[1] = float(n.y), out[2] = float(n.z);
+  });
+  number_layer("depth", "Z", &PixelSums::depth, Storage::single);
+  number_layer("object", "id", &PixelSums::object, Storage::id);
+  add_layer("standard_error", rgb, Storage::colour, [=, this](std::size_t i, float* out) {
+    const PixelSums first = pixel(i);
+    const auto [n0, n1] = first.samples;
+    Rgb<double> apart;
+    if (n0 > 0 && n1 > 0)
+      for (int group = 0; group < layout.groups; ++group) apart += halves_apart(pixel(i, group));
+    // Half the difference, with the weights of unequal halves.
+    const double scale = n0 > 0 && n1 > 0 ? std::sqrt(n0 * n1) / (n0 + n1) : 0;
+    put_colour(Rgb<double>(std::abs(apart.r), std::abs(apart.g), std::abs(apart.b)) * scale, out);
+  });
+  const auto add_sums = [&](const std::string& prefix, int first, int count) {
+    sum_layer(prefix + "plain", mean_of(&E::plain), Storage::single, first, count);
+    sum_layer(prefix + "analytic", mean_of(&E::analytic), Storage::single, first, count);
+    sum_layer(prefix + "occluded", mean_of(&E::occluded), Storage::single, first, count);
+    sum_layer(prefix + "unoccluded", mean_of(&E::unoccluded), Storage::single, first, count);
+  };
+  if (layout.groups == 1) {
+    add_sums("", 0, 1);
+  } else {
+    // Sums of different groups belong to different quotients.
+    for (int group = 0; group < layout.groups; ++group) {
+      const std::string name = group ? groups[std::size_t(group)] : "ungrouped";
+      sum_layer(name, beauty, Storage::colour, group, 1);
+      sum_layer(name + ".in_scatter", in_scatter, Storage::colour, group, 1);
+      sum_layer(name + ".surface", surface, Storage::colour, group, 1);
+      add_sums(name + ".", group, 1);
+    }
+  }
   return result;
 }
 

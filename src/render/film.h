@@ -1,58 +1,90 @@
 #pragma once
 #include <airlight/estimator.h>
 
-#include <bit>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <ranges>
+#include <string>
 #include <vector>
 
 #include "image/picture.h"
+#include "render/film_layout.h"
 #include "scene/scene.h"
 
 namespace airlight {
 
-/// What a pixel has gathered, every sample counting once; `Real` is float in a film, double while a
-/// tile is rendered, and a batch for a packet of pixels.
-template <class Real>
+/// What a pixel has gathered, of one light group: sums in which every sample counts once.
 struct PixelSums {
-  Halves<Real>
+  Halves<double>
       in_scatter;  ///< light scattered or emitted by the medium, in two halves of the samples
-  std::array<Real, 2> samples{Real(0), Real(0)};  ///< how many are in each half
-  Rgb<Real> surface;        ///< light from surfaces and the background, dimmed by the medium
-  Rgb<Real> transmittance;  ///< of the medium and of glass up to the first opaque surface
-  Rgb<Real> albedo;         ///< of the first surface
-  Vec3<Real> normal;        ///< of the first surface, towards the camera
-  Real depth =
-      Real(0);  ///< of the first surface on the pixel's first ray; 0 where there is none  [m]
-  Real object = Real(0);  ///< 1 + the index of that surface's object; 0 where there is none
+  std::array<double, 2> samples{};  ///< how many are in each half
+  Rgb<double> surface;        ///< light from surfaces and the background, dimmed by the medium
+  Rgb<double> transmittance;  ///< of the medium and of glass up to the first opaque surface
+  Rgb<double> albedo;         ///< of the first surface
+  Vec3<double> normal;        ///< of the first surface, towards the camera
+  double depth = 0;   ///< of the first surface on the pixel's first ray; 0 where there is none  [m]
+  double object = 0;  ///< 1 + the index of that surface's object; 0 where there is none
 
-  static constexpr std::size_t count = 40;  ///< numbers in all
-  static constexpr std::size_t added =
-      38;                               ///< the first ones, which add up; depth and object do not
-  using Row = std::array<Real, count>;  ///< the same as one row of numbers
-
-  Row row() const { return std::bit_cast<Row>(*this); }
-
-  /// Adds another run's samples; the first surface stays that of the first run that has samples.
-  template <class Other>
-  void add(const std::array<Other, count>& other);
-
-  Real sample_count() const { return samples[0] + samples[1]; }
+  double sample_count() const { return samples[0] + samples[1]; }
 };
+
+/// The in-scatter of a pixel over both halves, divided by the number of samples.
+Estimate<double> mean_estimate(const PixelSums& pixel);
 
 /// A rectangle of pixels.
 struct PixelRect {
   int x0 = 0, y0 = 0, width = 0, height = 0;
 };
 
+/// Memory that the system hands out zeroed when it is first touched: by the worker that renders
+/// there, not by the one that asks for it.
+template <class T>
+struct ZeroedMemory {
+  using value_type = T;
+
+  T* allocate(std::size_t count) {
+    void* memory = std::calloc(count, sizeof(T));
+    if (!memory) throw std::bad_alloc();
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
+  void construct(T*) noexcept {}  // it is zero
+  void construct(T* place, T value) noexcept { *place = value; }
+
+  friend bool operator==(const ZeroedMemory&, const ZeroedMemory&) noexcept { return true; }
+};
+
 /// The sums of a picture or of a crop of it. Sums of disjoint sample ranges of the same seed can be
 /// added.
 class Film {
  public:
+  /// Keeps everything, of lights without a group.
   Film(Resolution full, PixelRect crop);
 
-  Resolution full;                       ///< of the whole picture
-  PixelRect crop;                        ///< the part that the film holds
-  std::vector<PixelSums<float>> pixels;  ///< of the crop, row by row, the top row first
+  /// `groups`: names of the light groups, the first one empty: what belongs to none.
+  Film(Resolution full, PixelRect crop, FilmLayout layout, std::vector<std::string> groups);
+
+  Resolution full;  ///< of the whole picture
+  PixelRect crop;   ///< the part that the film holds
+  FilmLayout layout;
+  std::vector<std::string> groups;  ///< of lights; the first has no name
+
+  /// Pixels of the crop, row by row, the top row first.
+  std::size_t pixel_count() const noexcept {
+    return std::size_t(crop.width) * std::size_t(crop.height);
+  }
+  /// The sums of one of them.
+  PixelSums pixel(std::size_t index, int group = 0) const;
+  /// All of them.
+  auto pixels(int group = 0) const {
+    return std::views::iota(std::size_t(0), pixel_count()) |
+           std::views::transform([this, group](std::size_t i) { return pixel(i, group); });
+  }
+
+  /// Where the numbers of the pixel (x, y) of the crop begin, and those of its packet's others, if
+  /// it is a packet's first.
+  FilmPixels at(int x, int y) noexcept;
 
   /// Adds the samples of a film of the same scene, size and crop.
   void merge(const Film& other);
@@ -65,9 +97,19 @@ class Film {
 
   /// A layer of the picture by name as an image of its own: "beauty", "in_scatter", "surface", …
   Image layer(const std::string& name) const;
-};
 
-/// The sums of a pixel over both halves, divided by the number of samples.
-Estimate<double> mean_estimate(const PixelSums<float>& pixel);
+ private:
+  struct Place {
+    std::size_t block;
+    int index;  ///< in its block
+  };
+  Place place(int x, int y) const noexcept;
+  Place place(std::size_t index) const noexcept;
+
+  std::size_t blocks_across_;
+  std::vector<double, ZeroedMemory<double>> sums_;  ///< block by block, row by row of its numbers
+  std::vector<float, ZeroedMemory<float>> features_;
+  std::vector<std::uint32_t, ZeroedMemory<std::uint32_t>> samples_;
+};
 
 }  // namespace airlight

@@ -30,13 +30,22 @@ struct Frame {
       1;  ///< samples of a camera ray that share a surface's shadow ray to a light with a disc
   std::uint32_t seed = 0;
   std::vector<ParallelShadows> shadows = {};  ///< one a light, for the exact estimator only
+  FilmLayout layout = {};                     ///< of the films that are rendered into
+  std::vector<int> light_group = {};          ///< of each light
+
+  /// The group of what belongs to no light's group: background, ambient light, emission.
+  static constexpr int ungrouped = 0;
 };
 
-/// A part of the picture that one worker renders, with its sums in double.
+/// A part of the picture that one worker renders, straight into the film: no other worker has these
+/// pixels.
 struct Tile {
-  PixelRect rect;  ///< in pixels of the whole picture
+  static constexpr int size = 16;  ///< pixels of a side
+
+  PixelRect rect;  ///< of the film, from its own corner; begins at a multiple of `size`
   SampleRange samples;
-  std::vector<PixelSums<double>::Row> pixels;  ///< row by row
+  Film& film;
+  std::int64_t rejected = 0;  ///< pixels whose sums were not finite and were left out
 };
 
 }  // namespace airlight

@@ -89,6 +89,32 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
           fmt::format("estimator {} cannot serve lights.{}: {}", settings.estimator, i, reason));
 }
 
+std::vector<std::string> light_group_names(const Scene& scene) {
+  std::vector<std::string> names{""};
+  for (const std::string& group : scene.light_groups)
+    if (std::ranges::find(names, group) == names.end()) names.push_back(group);
+  return names;
+}
+
+FilmLayout film_layout(const Scene& scene, const Estimators& estimator) {
+  const auto* sampled = std::get_if<Sampled>(&estimator);
+  const bool ratio = sampled && std::holds_alternative<Ratio>(sampled->form);
+  const bool glows = scene.medium && scene.medium->emission != Rgb<double>();
+  return {.groups = int(light_group_names(scene).size()), .plain = !ratio || glows, .ratio = ratio};
+}
+
+namespace {
+
+std::vector<int> light_group_indices(const Scene& scene) {
+  const std::vector<std::string> names = light_group_names(scene);
+  std::vector<int> indices(scene.lights.size(), Frame::ungrouped);
+  for (std::size_t i = 0; i < scene.light_groups.size(); ++i)
+    indices[i] = int(std::ranges::find(names, scene.light_groups[i]) - names.begin());
+  return indices;
+}
+
+}  // namespace
+
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings) {
   check_settings(scene, settings);
   const Estimators estimator = estimator_for(settings);
@@ -99,6 +125,8 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   if (std::holds_alternative<ClosedForm>(estimator))
     for (const Lights& light : scene.lights)
       frame.shadows.emplace_back(scene, std::get<Directional>(light).direction);
+  frame.layout = film_layout(scene, estimator);
+  frame.light_group = light_group_indices(scene);
   frame.filter = settings.filter;
   // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all
   // share one.

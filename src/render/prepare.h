@@ -19,6 +19,12 @@ Estimators estimator_for(const RenderSettings& settings);
 /// the others.
 const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa);
 
+/// The light groups of a scene by name; the first has none: what belongs to no group.
+std::vector<std::string> light_group_names(const Scene& scene);
+
+/// What a film must keep of a scene for an estimator.
+FilmLayout film_layout(const Scene& scene, const Estimators& estimator);
+
 /// Throws Error if the settings don't fit each other, the scene or the machine.
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings);
 

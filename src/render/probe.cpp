@@ -34,7 +34,7 @@ struct RayKeeper {
     }
     if (walk.t_end < far_away) ray.end = walk.t_end;
     ray.through = walk.through;
-    ray.surface = walk.radiance;
+    for (const Rgb<F>& group : walk.radiance) ray.surface += group;
     ray.emission = walk.emission;
     rays.push_back(ray);
     medium_rays.emplace_back().t_max = 0;
@@ -177,21 +177,22 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
   const World world(scene, settings.visibility);
   const Prepared prepared = prepare(scene, world, in_double);
 
-  Tile tile{{x, y, 1, 1}, prepared.samples, std::vector<PixelSums<double>::Row>(1)};
   const Frame& frame = prepared.frame;
+  Film film(size, {x, y, 1, 1}, frame.layout, light_group_names(scene));
+  Tile tile{{0, 0, 1, 1}, prepared.samples, film};
   RayKeeper keeper(prepared.samples.count / frame.samples_per_ray + 2);
   render_tile<double>(frame, tile, keeper);
 
-  const auto sums = std::bit_cast<PixelSums<double>>(tile.pixels[0]);
   Probe result;
   result.x = x, result.y = y;
   result.estimator = settings.estimator;
   result.rays = std::move(keeper.rays);
-  result.mean = sums.in_scatter[0];
-  result.mean += sums.in_scatter[1];
-  result.mean = result.mean * (1 / sums.sample_count());
-  result.in_scatter = result.mean.radiance();
-  result.surface = sums.surface * (1 / sums.sample_count());
+  for (int group = 0; group < frame.layout.groups; ++group) {
+    const PixelSums sums = film.pixel(0, group);
+    result.mean += mean_estimate(sums);
+    result.in_scatter += mean_estimate(sums).radiance();
+    result.surface += sums.surface * (1 / sums.sample_count());
+  }
   result.radiance = result.in_scatter + result.surface;
 
   const Sampler<double> sampler{pixel_hash(frame.seed, std::uint32_t(x), std::uint32_t(y))};

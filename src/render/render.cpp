@@ -23,17 +23,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr int tile_size = 16;  // divisible by every kernel's block
-
-/// Without a branch a number: adding one to an exponent of all ones, and to no other, carries into
-/// the sign bit.
-bool is_finite(const PixelSums<double>::Row& pixel) {
-  std::uint64_t carried = 0;
-  for (double value : pixel)
-    carried |= (std::bit_cast<std::uint64_t>(value) & 0x7fffffffffffffffu) + 0x0010000000000000u;
-  return (carried >> 63) == 0;
-}
-
 PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
   if (!crop) return {0, 0, full.width, full.height};
   if (crop->x0 < 0 || crop->y0 < 0 || crop->width < 1 || crop->height < 1 ||
@@ -44,8 +33,8 @@ PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
   return *crop;
 }
 
-/// How many samples the next pass gives each pixel: as many as it has, so that their sums stay
-/// exact in a film of floats and a stop loses little. Previews come after passes that stay short.
+/// How many samples the next pass gives each pixel: as many as it has, so that passes are few and a
+/// stop loses little. Previews come after passes that stay short.
 std::uint32_t next_pass(std::uint32_t asked, std::uint32_t done, const RenderControl& control) {
   const std::uint32_t first = control.short_passes || control.time_limit > 0 ? 4 : 64;
   const std::uint32_t longest = control.short_passes ? 64 : asked;
@@ -79,11 +68,12 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
   check(settings);
   const PixelRect crop = checked_crop(control.crop, scene_.resolution);
   const Prepared prepared = prepare(scene_, worlds_->get(scene_, settings.visibility), settings);
-  Rendered result{.film = Film(scene_.resolution, crop)};
+  Rendered result{
+      .film = Film(scene_.resolution, crop, prepared.frame.layout, light_group_names(scene_))};
   result.instruction_set = prepared.kernel.name;
 
-  const int columns = (crop.width + tile_size - 1) / tile_size;
-  const int rows = (crop.height + tile_size - 1) / tile_size;
+  const int columns = (crop.width + Tile::size - 1) / Tile::size;
+  const int rows = (crop.height + Tile::size - 1) / Tile::size;
   std::atomic<std::int64_t> rejected = 0;
   std::atomic<bool> stopped = false;
   std::mutex reporting;
@@ -101,22 +91,12 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
   const auto render_tile = [&](int index, SampleRange samples) {
     if (must_stop()) return;
     const FlushToZero flush;
-    const int x = index % columns * tile_size, y = index / columns * tile_size;
-    Tile tile;
-    tile.rect = {crop.x0 + x, crop.y0 + y, std::min(tile_size, crop.width - x),
-                 std::min(tile_size, crop.height - y)};
-    tile.samples = samples;
-    tile.pixels.assign(std::size_t(tile.rect.width * tile.rect.height), {});
+    const int x = index % columns * Tile::size, y = index / columns * Tile::size;
+    Tile tile{{x, y, std::min(Tile::size, crop.width - x), std::min(Tile::size, crop.height - y)},
+              samples,
+              result.film};
     prepared.kernel.render(prepared.frame, tile);
-    for (int j = 0; j < tile.rect.height; ++j)
-      for (int i = 0; i < tile.rect.width; ++i) {
-        const auto& sums = tile.pixels[std::size_t(j * tile.rect.width + i)];
-        if (is_finite(sums))
-          result.film.pixels[std::size_t(y + j) * std::size_t(crop.width) + std::size_t(x + i)].add(
-              sums);
-        else
-          ++rejected;
-      }
+    rejected += tile.rejected;
     if (!control.on_progress) return;
     const std::scoped_lock lock(reporting);
     sample_tiles_done += samples.count;

@@ -145,8 +145,6 @@ void count(const Scene& scene, Summary& result) {
   }
   for (const Texture& texture : scene.textures) result.memory.textures += texture.rgba.size();
   result.memory.hierarchy = hierarchy_bytes_a_triangle * result.triangles;
-  result.memory.film = sizeof(PixelSums<float>) * std::size_t(scene.resolution.width) *
-                       std::size_t(scene.resolution.height);
   result.bounds = bounds_of(scene);
 }
 
@@ -212,6 +210,8 @@ Summary summarise(const Scene& scene) {
   if (scene.objects.empty()) result.warnings.push_back("no objects: nothing throws a shadow");
   try {
     check_settings(scene, scene.render);
+    result.memory.film = film_layout(scene, estimator_for(scene.render)).bytes_a_pixel() *
+                         std::size_t(scene.resolution.width) * std::size_t(scene.resolution.height);
   } catch (const Error& error) {
     result.warnings.push_back(error.what());
   }

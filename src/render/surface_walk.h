@@ -1,6 +1,8 @@
 #pragma once
 /// What a packet of camera rays meets: surfaces one behind the other, glass and cut-outs between,
 /// the background.
+#include <span>
+
 #include "render/frame.h"
 
 namespace airlight {
@@ -8,12 +10,16 @@ namespace airlight {
 template <Real F, class Space>
 class SurfaceWalk {
  public:
+  /// `radiance`: room for one colour a light group.
   SurfaceWalk(const Frame& frame, const Medium* medium, const Space& space,
-              const Sampler<F>& sampler) noexcept
-      : frame_(frame), medium_(medium), space_(space), sampler_(sampler) {}
+              const Sampler<F>& sampler, std::span<Rgb<F>> radiance) noexcept
+      : radiance(radiance), frame_(frame), medium_(medium), space_(space), sampler_(sampler) {
+    for (Rgb<F>& group : radiance) group = {};
+  }
 
+  std::span<Rgb<F>>
+      radiance;          ///< of surfaces and background, as it reaches the camera, by light group
   F t_end{F(far_away)};  ///< where nothing passes any more  [m]
-  Rgb<F> radiance;       ///< of surfaces and background, as it reaches the camera
   Rgb<F> emission;       ///< of the medium, as it reaches the camera
   Rgb<F> through{F(1)};  ///< what passes from the end of the ray to the camera
   Rgb<F> albedo;         ///< of the first surface; 0 without one
@@ -33,14 +39,12 @@ class SurfaceWalk {
       const Rgb<F> glow = filter * emitted(inside, t, t_next);
       emission = select(active, emission + glow, emission);
       const Rgb<F> dim = filter * attenuation(inside, t_next);
-      const Rgb<F> behind(Rgb<F>(frame_.scene.background) * dim);
-      radiance = select(active & !found, radiance + behind, radiance);
+      add(Frame::ungrouped, Rgb<F>(frame_.scene.background) * dim, active & !found);
       through = select(active, dim, through);
       if (!any(found)) break;
 
       const Crossing at = crossing(hit, bits<F>(found), direction);
-      radiance = select(found, radiance + dim * shade(at, origin, direction, hit.t, samples, found),
-                        radiance);
+      shade(at, dim, origin, direction, hit.t, samples, found);
       if (first) {
         albedo = select(found, at.albedo, albedo);
         normal = select(found, at.normal, normal);
@@ -104,23 +108,34 @@ class SurfaceWalk {
     return c;
   }
 
-  /// Diffuse reflection of every light and of the ambient radiance, towards the camera; the medium
-  /// dims light on its way in (Velinov 2021 Eq. 1 with a Lambertian surface).  [W/(m² sr)]
-  Rgb<F> shade(const Crossing& at, Vec3<F> origin, Vec3<F> direction, F t, SampleRange samples,
-               Mask<F> found) const noexcept {
+  void add(int group, const Rgb<F>& light, Mask<F> where) noexcept {
+    Rgb<F>& sum = radiance[std::size_t(group)];
+    sum = select(where, sum + light, sum);
+  }
+
+  /// Adds the diffuse reflection of every light and of the ambient radiance, towards the camera, of
+  /// which `dim` arrives there; the medium dims light on its way in (Velinov 2021 Eq. 1 with a
+  /// Lambertian surface).  [W/(m² sr)]
+  void shade(const Crossing& at, const Rgb<F>& dim, Vec3<F> origin, Vec3<F> direction, F t,
+             SampleRange samples, Mask<F> found) noexcept {
     found = found & ((at.albedo.r + at.albedo.g + at.albedo.b) > F(0));
-    if (!any(found)) return {};  // black
-    Rgb<F> light_in = Rgb<F>(frame_.scene.ambient) * F(pi);
+    if (!any(found)) return;  // black
+    const Rgb<F> reflected = dim * at.albedo;
+    if (frame_.scene.ambient != Rgb<double>())
+      add(Frame::ungrouped, reflected * Rgb<F>(frame_.scene.ambient), found);
     const Vec3<F> p = origin + direction * t;
     // Shadow rays start a little off the surface: the hit is known to a few roundings of its
     // coordinates.
     const F lift = F(2e-5) * (abs(p.x) + abs(p.y) + abs(p.z) + t);
     const Vec3<F> from = p + at.geometric * lift;
+    const Rgb<F> lambert = reflected * F(1 / pi);
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
       std::visit(
-          [&](const auto& light) { light_in += irradiance(light, i, at, p, from, samples, found); },
+          [&](const auto& light) {
+            add(frame_.light_group[std::size_t(i)],
+                lambert * irradiance(light, i, at, p, from, samples, found), found);
+          },
           frame_.scene.lights[std::size_t(i)]);
-    return at.albedo * light_in * F(1 / pi);
   }
 
   /// Of light at the point p, whose shadow rays start at `from`: the mean over the samples of the

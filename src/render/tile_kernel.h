@@ -1,5 +1,6 @@
 #pragma once
 /// How a tile is rendered, over a real type: one lane a pixel. Compiled once for each arithmetic.
+#include <bit>
 #include <type_traits>
 
 #include "render/kernel.h"
@@ -12,6 +13,92 @@ template <Real F>
 struct Block {
   static constexpr int height = lanes<F> >= 16 ? 4 : lanes<F> >= 4 ? 2 : 1;
   static constexpr int width = lanes<F> / height;
+};
+
+/// The sums of a packet of pixels, one a lane, until they go to the film.
+template <Real F>
+struct PacketSums {
+  struct Group {
+    Halves<F> in_scatter;
+    Rgb<F> surface;
+  };
+  std::vector<Group> groups;
+  Rgb<F> transmittance, albedo;
+  Vec3<F> normal;
+  F depth, object;                         ///< of the first camera ray
+  std::array<std::uint32_t, 2> samples{};  ///< in each half, of every pixel
+
+  explicit PacketSums(const FilmLayout& layout) : groups(std::size_t(layout.groups)) {}
+
+  /// Adds the sums of the active lanes to the film's and starts again from zero. Returns how many
+  /// lanes were left out because something in them is not finite.
+  int spill(const FilmLayout& layout, FilmPixels to, Mask<F> active) noexcept {
+    F poison(0);  // stays zero but where a number is infinite or none
+    for_each(
+        layout, [&](int, F total, const int*, F) { poison = fma(total, F(0), poison); },
+        [&](int, F feature) { poison = fma(feature, F(0), poison); });
+    const Mask<F> good = active & (poison == F(0));
+    const F none(0);
+    for_each(
+        layout,
+        [&](int row, F total, const int* second_row, F second) {
+          add_to(to.sums + row * film_block::pixels, select(good, total, none));
+          if (second_row)
+            add_to(to.features + *second_row * film_block::pixels, select(good, second, none));
+        },
+        [&](int row, F feature) {
+          add_to(to.features + row * film_block::pixels, select(good, feature, none));
+        });
+    const std::uint32_t kept = bits<F>(good);
+    alignas(64) Scalar<F> depths[lanes<F>], objects[lanes<F>];
+    store(depth, depths), store(object, objects);
+    for (int i = 0; i < lanes<F>; ++i) {
+      if (!((kept >> i) & 1u)) continue;
+      std::uint32_t &first = to.samples[i], &second = to.samples[i + film_block::pixels];
+      if (first + second == 0) {
+        to.features[FilmLayout::depth * film_block::pixels + i] = float(depths[i]);
+        to.features[FilmLayout::object * film_block::pixels + i] = float(objects[i]);
+      }
+      first += samples[0], second += samples[1];
+    }
+    for (Group& group : groups) group = {};
+    transmittance = albedo = {}, normal = {}, samples = {};
+    return std::popcount(bits<F>(active) & ~kept);
+  }
+
+ private:
+  /// sum(row, total, row of the second half or null, second half) for what adds up to radiance,
+  /// feature(row, value) for the rest.
+  template <class Sum, class Feature>
+  void for_each(const FilmLayout& layout, Sum&& sum, Feature&& feature) const noexcept {
+    for (int g = 0; g < layout.groups; ++g) {
+      const Group& group = groups[std::size_t(g)];
+      const auto& [one, two] = group.in_scatter;
+      int row = layout.in_scatter(g), second_row = layout.second_half(g);
+      const auto halves = [&](const Rgb<F>& a, const Rgb<F>& b) {
+        for (int c = 0; c < 3; ++c, ++row, ++second_row) sum(row, a[c] + b[c], &second_row, b[c]);
+      };
+      if (layout.plain) halves(one.plain, two.plain);
+      if (layout.ratio) {
+        halves(one.analytic, two.analytic);
+        halves(one.occluded, two.occluded);
+        halves(one.unoccluded, two.unoccluded);
+      }
+      for (int c = 0; c < 3; ++c) sum(row + c, group.surface[c], nullptr, F(0));
+    }
+    for (int c = 0; c < 3; ++c) {
+      feature(FilmLayout::transmittance + c, transmittance[c]);
+      feature(FilmLayout::albedo + c, albedo[c]);
+      feature(FilmLayout::normal + c, normal[c]);
+    }
+  }
+
+  template <class T>
+  static void add_to(T* row, F values) noexcept {
+    alignas(64) Scalar<F> numbers[lanes<F>];
+    store(values, numbers);
+    for (int i = 0; i < lanes<F>; ++i) row[i] += T(numbers[i]);
+  }
 };
 
 /// Offset of a camera ray from its pixel's centre, drawn from the filter.  [pixels]
@@ -83,57 +170,64 @@ template <Real F, class Space, class Watcher>
 class TileKernel {
  public:
   TileKernel(const Frame& frame, Tile& tile, const Medium* medium, const Space& space,
-             Watcher& watcher) noexcept
-      : frame_(frame), tile_(tile), medium_(medium), space_(space), watcher_(watcher) {
+             Watcher& watcher)
+      : frame_(frame),
+        tile_(tile),
+        medium_(medium),
+        space_(space),
+        watcher_(watcher),
+        sums_(frame.layout),
+        surface_(std::size_t(frame.layout.groups)) {
     if (medium) camera_local_ = Vec3<F>(space.point(frame.camera.position));
   }
 
-  void render() const noexcept {
+  void render() noexcept {
     for (int y = 0; y < tile_.rect.height; y += Block<F>::height)
-      for (int x = 0; x < tile_.rect.width; x += Block<F>::width) packet(x, y);
+      for (int x = 0; x < tile_.rect.width; x += Block<F>::width)
+        packet(tile_.rect.x0 + x, tile_.rect.y0 + y);
   }
 
  private:
-  /// Samples summed in F before they are added to the tile's sums in double: longer runs of floats
+  /// Samples summed in F before they are added to the film's sums in double: longer runs of floats
   /// drift.
   static constexpr std::uint32_t longest_run = 1024;
 
-  void packet(int x0, int y0) const noexcept {
+  /// The pixels from (x0, y0) of the film on.
+  void packet(int x0, int y0) noexcept {
+    const PixelRect& rect = tile_.rect;
+    const PixelRect& crop = tile_.film.crop;
     alignas(64) Scalar<F> px[lanes<F>], py[lanes<F>];
-    std::array<int, std::size_t(lanes<F>)> pixel;
     std::array<std::uint32_t, std::size_t(lanes<F>)> hash;
     std::uint32_t inside = 0;
     for (int i = 0; i < lanes<F>; ++i) {
-      const int x = x0 + i % Block<F>::width, y = y0 + i / Block<F>::width;
-      const bool in = x < tile_.rect.width && y < tile_.rect.height;
-      const int X = tile_.rect.x0 + (in ? x : x0), Y = tile_.rect.y0 + (in ? y : y0);
+      const int x = x0 + film_block::x(i), y = y0 + film_block::y(i);
+      const bool in = x < rect.x0 + rect.width && y < rect.y0 + rect.height;
+      const int X = crop.x0 + (in ? x : x0), Y = crop.y0 + (in ? y : y0);
       px[i] = Scalar<F>(X) + Scalar<F>(0.5), py[i] = Scalar<F>(Y) + Scalar<F>(0.5);
       hash[std::size_t(i)] = pixel_hash(frame_.seed, std::uint32_t(X), std::uint32_t(Y));
-      pixel[std::size_t(i)] = in ? y * tile_.rect.width + x : -1;
       inside |= std::uint32_t(in) << i;
     }
     const Sampler<F> sampler{load_bits<F>(hash.data())};
     const Mask<F> active = mask_from_bits<F>(inside);
     const F x = load<F>(px), y = load<F>(py);
 
-    PixelSums<F> sums;
+    const FilmPixels to = tile_.film.at(x0, y0);
     const std::uint32_t end = tile_.samples.first + tile_.samples.count;
     std::uint32_t held = 0;
     for (std::uint32_t i = tile_.samples.first; i < end;) {
       const std::uint32_t index = i / frame_.samples_per_ray;
       const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_ray);
-      const bool first = i == tile_.samples.first;
-      camera_ray(x, y, index, {i, stop - i}, sampler, active, first ? &pixel : nullptr, sums);
+      camera_ray(x, y, index, {i, stop - i}, sampler, active, i == tile_.samples.first);
       held += stop - i;
       i = stop;
-      if (held >= longest_run) spill(sums, pixel), held = 0;
+      if (held < longest_run && i < end) continue;
+      tile_.rejected += sums_.spill(frame_.layout, to, active);
+      held = 0;
     }
-    spill(sums, pixel);
   }
 
   void camera_ray(F x, F y, std::uint32_t index, SampleRange samples, const Sampler<F>& sampler,
-                  Mask<F> active, const std::array<int, std::size_t(lanes<F>)>* first_of,
-                  PixelSums<F>& sums) const noexcept {
+                  Mask<F> active, bool is_first) noexcept {
     if (!frame_.through_centre) {
       const Vec2<F> offset = filter_offset(frame_.filter, sampler.two(index, stream::camera));
       x = x + offset.x, y = y + offset.y;
@@ -151,28 +245,24 @@ class TileKernel {
       inside.t_exit = max(inside.t_exit, inside.t_enter);
     }
 
-    SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler);
+    SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler, surface_);
     walk.along(origin, direction, inside, samples, active);
     watcher_.camera_ray(walk, direction, inside, samples);
 
     const F n(Scalar<F>(samples.count));
+    Halves<F>& ungrouped = sums_.groups[Frame::ungrouped].in_scatter;
     const bool halve_by_ray = !frame_.through_centre;
     for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
-      const int half = half_of(halve_by_ray ? index : i);
-      sums.samples[std::size_t(half)] += F(1);
-      sums.in_scatter[std::size_t(half)].plain += walk.emission;
+      const auto half = std::size_t(half_of(halve_by_ray ? index : i));
+      ++sums_.samples[half];
+      ungrouped[half].plain += walk.emission;
     }
-    sums.surface += walk.radiance * n;
-    sums.transmittance += walk.through * n;
-    sums.albedo += walk.albedo * n;
-    sums.normal = sums.normal + walk.normal * n;
-    if (first_of)
-      for (int i = 0; i < lanes<F>; ++i)
-        if (const int p = (*first_of)[std::size_t(i)]; p >= 0) {
-          auto& row = tile_.pixels[std::size_t(p)];
-          row[PixelSums<F>::added] = double(lane(walk.depth, i));
-          row[PixelSums<F>::added + 1] = double(lane(walk.object, i));
-        }
+    for (std::size_t g = 0; g < sums_.groups.size(); ++g)
+      sums_.groups[g].surface += walk.radiance[g] * n;
+    sums_.transmittance += walk.through * n;
+    sums_.albedo += walk.albedo * n;
+    sums_.normal = sums_.normal + walk.normal * n;
+    if (is_first) sums_.depth = walk.depth, sums_.object = walk.object;
 
     if (!medium_) return;
     MediumRay<F> ray = medium_ray({origin, direction, walk.t_end}, local, inside);
@@ -182,31 +272,17 @@ class TileKernel {
     if (!any(ray.active)) return;
     watcher_.medium_ray(ray);
 
-    for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
+    for (int i = 0; i < int(frame_.scene.lights.size()); ++i) {
+      Halves<F>& sums = sums_.groups[std::size_t(frame_.light_group[std::size_t(i)])].in_scatter;
       std::visit(
           [&](const auto& light) {
             if (medium_->is_grey())
-              add_in_scatter<1>(frame_, space_, light, i, ray, samples, sampler, sums.in_scatter);
+              add_in_scatter<1>(frame_, space_, light, i, ray, samples, sampler, sums);
             else
-              add_in_scatter<3>(frame_, space_, light, i, ray, samples, sampler, sums.in_scatter);
+              add_in_scatter<3>(frame_, space_, light, i, ray, samples, sampler, sums);
           },
           frame_.scene.lights[std::size_t(i)]);
-  }
-
-  /// Adds a packet's sums, a lane a pixel, to the tile's. Many are zero: an estimator uses some of
-  /// the four.
-  void spill(PixelSums<F>& sums,
-             const std::array<int, std::size_t(lanes<F>)>& pixel) const noexcept {
-    const auto values = sums.row();
-    for (std::size_t k = 0; k < PixelSums<F>::added; ++k) {
-      if (!any(values[k] != F(0))) continue;
-      alignas(64) Scalar<F> lane_values[lanes<F>];
-      store(values[k], lane_values);
-      for (int i = 0; i < lanes<F>; ++i)
-        if (const int p = pixel[std::size_t(i)]; p >= 0)
-          tile_.pixels[std::size_t(p)][k] += double(lane_values[i]);
     }
-    sums = {};
   }
 
   const Frame& frame_;
@@ -215,6 +291,8 @@ class TileKernel {
   const Space& space_;
   Watcher& watcher_;
   Vec3<F> camera_local_;
+  PacketSums<F> sums_;
+  std::vector<Rgb<F>> surface_;  ///< of one camera ray, by light group
 };
 
 template <Real F, class Watcher>
