@@ -50,6 +50,17 @@ void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without
       ->type_name("")
       ->take_last()
       ->group("Scene");
+  verb.add_option_function<std::string>(
+          "--background",
+          [this](const std::string& file) {
+            changes_.emplace_back("background_image",
+                                  airlight::toml_text(std::filesystem::absolute(file).string()),
+                                  "--background " + file);
+          },
+          "a picture that stands behind everything, of the picture's size")
+      ->type_name("FILE")
+      ->take_last()
+      ->group("Scene");
   add_flags<airlight::RenderSettings>(verb, "render.", "Render", changes_, without);
 }
 

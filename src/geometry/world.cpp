@@ -21,6 +21,7 @@ SurfacePoint World::surface(std::uint32_t object, std::uint32_t primitive, float
   const Material& material = what.material;
   SurfacePoint point;
   point.object = object;
+  point.holdout = what.holdout;
   if (const auto* mesh = std::get_if<Mesh>(&what.geometry)) {
     const auto [a, b, c] = mesh->triangles[primitive];
     const auto& p = mesh->positions;

@@ -19,6 +19,7 @@ struct SurfacePoint {
   float opacity;                 ///< in [0, 1]
   Rgb<float> transmittance;      ///< (1 − opacity) · tint
   std::uint32_t object;          ///< index into Scene::objects
+  bool holdout;                  ///< as the object's
 };
 
 /// What a kernel may ask of the scene's surfaces. Any thread may ask at any time. Rays do not know

@@ -20,7 +20,7 @@ struct PixelSums {
       in_scatter;  ///< light scattered or emitted by the medium, in two halves of the samples
   std::array<double, 2> samples{};  ///< how many are in each half
   Rgb<double> surface;        ///< light from surfaces and the background, dimmed by the medium
-  Rgb<double> transmittance;  ///< of the medium and of glass up to the first opaque surface
+  Rgb<double> transmittance;  ///< what passes from the background, also where holdouts show it
   Rgb<double> albedo;         ///< of the first surface
   Vec3<double> normal;        ///< of the first surface, towards the camera
   double depth = 0;   ///< of the first surface on the pixel's first ray; 0 where there is none  [m]

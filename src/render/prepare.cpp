@@ -80,6 +80,13 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
     throw Error(fmt::format(
         "estimator {} cannot serve this scene: it knows the shadows of opaque objects only",
         ClosedForm::name));
+  if (const Image& image = scene.background_image;
+      !image.pixels.empty() && (image.channels != 3 || image.width != scene.resolution.width ||
+                                image.height != scene.resolution.height))
+    throw Error(fmt::format(
+        "the background's picture has {} x {} pixels of {} channels; accepted: {} x {} of 3",
+        image.width, image.height, image.channels, scene.resolution.width,
+        scene.resolution.height));
   if (!scene.medium) return;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (const char* reason =

@@ -17,11 +17,14 @@ class SurfaceWalk {
     for (Rgb<F>& group : radiance) group = {};
   }
 
+  Rgb<F> background;  ///< what is behind everything, to be set before the walk  [W/(m² sr)]
+
   std::span<Rgb<F>>
       radiance;          ///< of surfaces and background, as it reaches the camera, by light group
   F t_end{F(far_away)};  ///< where nothing passes any more  [m]
   Rgb<F> emission;       ///< of the medium, as it reaches the camera
   Rgb<F> through{F(1)};  ///< what passes from the end of the ray to the camera
+  Rgb<F> uncovered;      ///< what passes from the background, also where holdouts show it
   Rgb<F> albedo;         ///< of the first surface; 0 without one
   Vec3<F> normal;        ///< of the first surface, towards the camera; 0 without one
   F depth{F(0)}, object{F(0)};
@@ -39,11 +42,12 @@ class SurfaceWalk {
       const Rgb<F> glow = filter * emitted(inside, t, t_next);
       emission = select(active, emission + glow, emission);
       const Rgb<F> dim = filter * attenuation(inside, t_next);
-      add(Frame::ungrouped, Rgb<F>(frame_.scene.background) * dim, active & !found);
+      uncovered = select(active & !found, uncovered + dim, uncovered);
       through = select(active, dim, through);
       if (!any(found)) break;
 
       const Crossing at = crossing(hit, bits<F>(found), direction);
+      uncovered = select(found, uncovered + dim * at.uncovered, uncovered);
       shade(at, dim, origin, direction, hit.t, samples, found);
       if (first) {
         albedo = select(found, at.albedo, albedo);
@@ -60,6 +64,7 @@ class SurfaceWalk {
       t = hit.t;
       active = passes;
     }
+    radiance[Frame::ungrouped] += uncovered * background;
   }
 
  private:
@@ -69,32 +74,29 @@ class SurfaceWalk {
   /// A packet's surfaces.
   struct Crossing {
     Vec3<F> normal, geometric;  ///< towards the viewer
-    Rgb<F> albedo;              ///< times opacity
+    Rgb<F> albedo;              ///< times opacity; black in holdouts, which the camera does not see
     Rgb<F> filter;              ///< what the surface lets through
     F object;                   ///< 1 + index
+    F uncovered;                ///< the opacity of a holdout; 0 of other surfaces
   };
 
   Crossing crossing(const Hit<F>& hit, std::uint32_t found, Vec3<F> direction) const noexcept {
-    alignas(64) Scalar<F> values[13][lanes<F>] = {};
+    alignas(64) Scalar<F> values[14][lanes<F>] = {};
     for (int i = 0; i < lanes<F>; ++i) {
       if (!((found >> i) & 1u)) continue;
       const auto k = std::size_t(i);
       const SurfacePoint s =
           frame_.world.surface(hit.object[k], hit.primitive[k], hit.u[k], hit.v[k]);
-      const float numbers[13] = {s.normal.x,
-                                 s.normal.y,
-                                 s.normal.z,
-                                 s.geometric_normal.x,
-                                 s.geometric_normal.y,
-                                 s.geometric_normal.z,
-                                 s.albedo.r * s.opacity,
-                                 s.albedo.g * s.opacity,
-                                 s.albedo.b * s.opacity,
-                                 s.transmittance.r,
-                                 s.transmittance.g,
-                                 s.transmittance.b,
-                                 float(s.object + 1)};
-      for (int j = 0; j < 13; ++j) values[j][i] = numbers[j];
+      const float holdout = s.holdout ? s.opacity : 0;
+      const float own = s.opacity - holdout;
+      const float numbers[14] = {s.normal.x,           s.normal.y,
+                                 s.normal.z,           s.geometric_normal.x,
+                                 s.geometric_normal.y, s.geometric_normal.z,
+                                 s.albedo.r * own,     s.albedo.g * own,
+                                 s.albedo.b * own,     s.transmittance.r,
+                                 s.transmittance.g,    s.transmittance.b,
+                                 float(s.object + 1),  holdout};
+      for (int j = 0; j < 14; ++j) values[j][i] = numbers[j];
     }
     const auto at = [&](int j) { return load<F>(values[j]); };
     Crossing c;
@@ -105,6 +107,7 @@ class SurfaceWalk {
     c.albedo = Rgb<F>(at(6), at(7), at(8));
     c.filter = Rgb<F>(at(9), at(10), at(11));
     c.object = at(12);
+    c.uncovered = at(13);
     return c;
   }
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <type_traits>
 
+#include "render/background.h"
 #include "render/kernel.h"
 #include "render/surface_walk.h"
 
@@ -210,6 +211,7 @@ class TileKernel {
     const Sampler<F> sampler{load_bits<F>(hash.data())};
     const Mask<F> active = mask_from_bits<F>(inside);
     const F x = load<F>(px), y = load<F>(py);
+    const Rgb<F> background = background_at(frame_.scene, x, y);
 
     const FilmPixels to = tile_.film.at(x0, y0);
     const std::uint32_t end = tile_.samples.first + tile_.samples.count;
@@ -217,7 +219,7 @@ class TileKernel {
     for (std::uint32_t i = tile_.samples.first; i < end;) {
       const std::uint32_t index = i / frame_.samples_per_ray;
       const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_ray);
-      camera_ray(x, y, index, {i, stop - i}, sampler, active, i == tile_.samples.first);
+      camera_ray(x, y, background, index, {i, stop - i}, sampler, active, i == tile_.samples.first);
       held += stop - i;
       i = stop;
       if (held < longest_run && i < end) continue;
@@ -226,8 +228,8 @@ class TileKernel {
     }
   }
 
-  void camera_ray(F x, F y, std::uint32_t index, SampleRange samples, const Sampler<F>& sampler,
-                  Mask<F> active, bool is_first) noexcept {
+  void camera_ray(F x, F y, Rgb<F> background, std::uint32_t index, SampleRange samples,
+                  const Sampler<F>& sampler, Mask<F> active, bool is_first) noexcept {
     if (!frame_.through_centre) {
       const Vec2<F> offset = filter_offset(frame_.filter, sampler.two(index, stream::camera));
       x = x + offset.x, y = y + offset.y;
@@ -246,6 +248,7 @@ class TileKernel {
     }
 
     SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler, surface_);
+    walk.background = background;
     walk.along(origin, direction, inside, samples, active);
     watcher_.camera_ray(walk, direction, inside, samples);
 
@@ -259,7 +262,7 @@ class TileKernel {
     }
     for (std::size_t g = 0; g < sums_.groups.size(); ++g)
       sums_.groups[g].surface += walk.radiance[g] * n;
-    sums_.transmittance += walk.through * n;
+    sums_.transmittance += walk.uncovered * n;
     sums_.albedo += walk.albedo * n;
     sums_.normal = sums_.normal + walk.normal * n;
     if (is_first) sums_.depth = walk.depth, sums_.object = walk.object;

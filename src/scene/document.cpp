@@ -198,6 +198,19 @@ Value read_document(const std::filesystem::path& path) {
   return parse_document(read_text(path), path.string());
 }
 
+std::string toml_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      quoted += std::string("\\") + c;
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      quoted += fmt::format("\\u{:04x}", int(c));
+    else
+      quoted += c;
+  }
+  return quoted + "\"";
+}
+
 void apply(const Override& change, Value& document) {
   const auto source = std::make_shared<const std::string>(change.said);
   const std::vector<std::string> parts = split(change.path);

@@ -63,6 +63,9 @@ Value parse_document(const std::string& text, const std::string& name);
 /// The same from a file.
 Value read_document(const std::filesystem::path& path);
 
+/// A text as a TOML value, in quotes.
+std::string toml_text(const std::string& text);
+
 /// Sets the value at a path. Tables on the way are made where they are missing; elements of arrays
 /// must be there. Throws Error if the path leads nowhere or the value is none.
 void apply(const Override& change, Value& document);

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "image/image.h"
 #include "image/texture.h"
 #include "render_settings.h"
 
@@ -76,6 +77,9 @@ struct Object {
   std::string name;
   std::variant<Mesh, Sphere> geometry;
   Material material;
+  /// Stands for a thing of the background's picture: in the place of its own light, the camera sees
+  /// the background there, as far as the surface is opaque.
+  bool holdout = false;
 };
 
 /// What a scene file means: plain data, in double where it is not bulk, SI units.
@@ -83,7 +87,8 @@ struct Scene {
   Camera camera;
   Resolution resolution;
   Rgb<double> background{0, 0, 0};  ///< radiance behind everything  [W/(m2 sr)]
-  Rgb<double> ambient{0, 0, 0};     ///< radiance around surfaces; lights surfaces only  [W/(m2 sr)]
+  Image background_image;        ///< seen instead, pixel by pixel; of the picture's size, or empty
+  Rgb<double> ambient{0, 0, 0};  ///< radiance around surfaces; lights surfaces only  [W/(m2 sr)]
   std::vector<Texture> textures;
   std::vector<Object> objects;
   std::optional<Medium> medium;

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "scene/background_image.h"
 #include "scene/direction.h"
 #include "scene/reader.h"
 
@@ -71,6 +72,10 @@ Scene scene_of(const Value& value, const Files& files) {
   scene.camera = document.camera;
   scene.resolution = document.image;
   scene.background = document.background;
+  if (document.background_image)
+    scene.background_image =
+        load_background_image(files.folder / *document.background_image, scene.resolution,
+                              at.at_or_here("background_image"));
   scene.ambient = document.ambient;
   scene.render = document.render;
   check(scene.camera, at.at_or_here("camera"));

@@ -13,6 +13,7 @@ struct SceneDocument {
   Camera camera;
   Resolution image;
   Rgb<double> background{0, 0, 0};
+  std::optional<std::string> background_image;
   Rgb<double> ambient{0, 0, 0};
   std::vector<MediumDocument> media;
   std::vector<LightDocuments> lights;
@@ -23,6 +24,9 @@ struct SceneDocument {
   static constexpr void describe(Visitor&& field) {
     using D = SceneDocument;
     field("background", &D::background, unit::radiance, at_least(0), "seen behind everything");
+    field("background_image", &D::background_image, unit::none, any_number(),
+          "a picture of the same size (.png, .jpg, .hdr, .exr, .pfm) that is seen behind "
+          "everything instead, pixel by pixel; its path starts at the scene file");
     field("ambient", &D::ambient, unit::radiance, at_least(0),
           "light from all around; it reaches surfaces only, not the medium");
     field("camera", &D::camera, unit::none, any_number(), "a pinhole camera");

@@ -100,14 +100,12 @@ class BruteForce {
     return result;
   }
 
-  /// What reaches the camera from the first opaque sheet, or from the background.
+  /// What reaches the camera from the background.
   Colour transmittance(const CameraRay& ray) const {
     Colour filter(1.);
     for (const auto& [t, sheet] : crossings(ray)) {
       const auto [s, u] = place(*sheet, ray.origin + ray.direction * t);
-      const Colour next = filter * sheet->tint * (1 - sheet->opacity(s, u));
-      if (next == Colour()) return filter * dimmed(ray, t);
-      filter = next;
+      filter = filter * sheet->tint * (1 - sheet->opacity(s, u));
     }
     return filter * dimmed(ray, infinity);
   }

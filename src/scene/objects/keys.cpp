@@ -29,6 +29,7 @@ void PlacedObject::place(Parts& parts, const char* kind) const {
       object.name = label.empty() ? kind : label;
     else if (!label.empty())
       object.name = label + "." + object.name;
+    object.holdout = holdout;
     if (stays) continue;
     if (auto* sphere = std::get_if<Sphere>(&object.geometry)) {
       sphere->centre = moved(sphere->centre);

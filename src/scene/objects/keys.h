@@ -18,6 +18,7 @@ struct PlacedObject {
   double scale = 1;
   Vec3<double> rotate{0, 0, 0};
   Vec3<double> translate{0, 0, 0};
+  bool holdout = false;
 
   template <class Visitor>
   static constexpr void describe(Visitor&& field) {
@@ -27,9 +28,12 @@ struct PlacedObject {
     field("rotate", &O::rotate, unit::degree, any_number(),
           "about the x axis, then y, then z, through the origin");
     field("translate", &O::translate, unit::metre, any_number(), "where its origin is put");
+    field("holdout", &O::holdout, unit::none, any_number(),
+          "stands for a thing in the background's picture: it blocks and shadows, and the camera "
+          "sees the background in its place");
   }
 
-  /// Puts the parts where the keys say and names them.
+  /// Puts the parts where the keys say, names and marks them.
   void place(Parts& parts, const char* kind) const;
 };
 

@@ -1,0 +1,271 @@
+// Pictures laid over pictures: backgrounds, holdouts, alpha and depth images, in every arithmetic
+// and through the program.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "error.h"
+#include "image/input.h"
+#include "image/output.h"
+#include "render/kernel.h"
+#include "render/render.h"
+#include "scene/described.h"
+#include "scene/load_scene.h"
+#include "scene/objects.h"
+#include "support/program.h"
+
+namespace airlight {
+namespace {
+
+using test::Folder;
+using ::testing::HasSubstr;
+using Colour = Rgb<double>;
+
+/// A picture without two pixels alike.
+Image noise(int width, int height) {
+  Image image(width, height);
+  std::mt19937 random(7);
+  for (float& value : image.pixels) value = std::uniform_real_distribution<float>(0.1f, 2)(random);
+  return image;
+}
+
+/// Fog between -1 and 1 in front of everything, a ball, a pane of blue glass and a wall behind half
+/// of the picture.
+Scene veiled(int width, int height) {
+  Scene scene = parse_scene(R"(
+[camera]
+position = [0, 0, 4]
+[[media]]
+sigma_s = [0.3, 0.4, 0.5]
+sigma_a = 0.1
+shape = {type = "box", min = [-3, -3, -1], max = [3, 3, 1]}
+[[lights]]
+type = "directional"
+irradiance = 3
+direction = [-1, -2, -0.5]
+[[objects]]
+type = "sphere"
+centre = [-0.5, 0.2, 0]
+radius = 0.6
+[[objects]]
+type = "rectangle"
+corner = [0, -0.5, 1.5]
+u = [0.8, 0, 0]
+v = [0, 1, 0]
+opacity = 0.25
+tint = [0.2, 0.5, 0.9]
+albedo = [0.9, 0.2, 0.1]
+[[objects]]
+type = "rectangle"
+corner = [-4, -4, -2]
+u = [4, 0, 0]
+v = [0, 8, 0]
+)",
+                            "veiled");
+  scene.resolution = {width, height};
+  scene.render.spp = 8;
+  scene.render.samples_per_ray = 2;
+  return scene;
+}
+
+class EveryArithmetic : public testing::TestWithParam<const Kernel*> {
+ protected:
+  Film render(Scene scene, const RenderControl& control = {}) const {
+    scene.render.isa = GetParam()->isa;
+    const Rendered rendered = Renderer(scene).render(scene.render, control);
+    EXPECT_EQ(rendered.rejected, 0);
+    return rendered.film;
+  }
+
+  /// Relative error of a pixel's sum of some products; a film keeps floats.
+  float rounding() const { return GetParam()->isa == InstructionSet::reference ? 4e-7f : 2e-6f; }
+
+  void expect_equal(const Image& got, const Image& want) const {
+    ASSERT_EQ(got.pixels.size(), want.pixels.size());
+    float worst = 0;
+    for (std::size_t i = 0; i < got.pixels.size(); ++i)
+      worst = std::max(worst, std::abs(got.pixels[i] - want.pixels[i]) / (want.pixels[i] + 0.1f));
+    EXPECT_LT(worst, rounding());
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Compositing, EveryArithmetic, testing::ValuesIn(available_kernels()),
+                         [](const auto& test) { return std::string(test.param->name); });
+
+TEST_P(EveryArithmetic, a_background_is_seen_pixel_by_pixel) {
+  Scene scene;
+  scene.resolution = {21, 9};
+  scene.background_image = noise(21, 9);
+  scene.render.spp = 8, scene.render.samples_per_ray = 1;  // the filter must not blur it
+  expect_equal(render(scene).layer("beauty"), scene.background_image);
+}
+
+TEST_P(EveryArithmetic, a_crop_sees_its_part_of_the_background) {
+  Scene scene;
+  scene.resolution = {40, 30};
+  scene.background_image = noise(40, 30);
+  RenderControl control;
+  control.crop = PixelRect{17, 11, 20, 19};
+  const Image beauty = render(scene, control).layer("beauty");
+  Image want(20, 19);
+  for (int y = 0; y < 19; ++y)
+    std::ranges::copy(scene.background_image.row(11 + y).subspan(17 * 3, 20 * 3),
+                      want.row(y).begin());
+  expect_equal(beauty, want);
+}
+
+TEST_P(EveryArithmetic, layers_laid_over_a_picture_are_what_is_rendered_before_it) {
+  for (bool holdout : {false, true}) {
+    Scene scene = veiled(48, 40);
+    scene.objects[0].holdout = holdout;
+    const Film alone = render(scene);
+    const Image in_scatter = alone.layer("in_scatter"), surface = alone.layer("surface"),
+                transmittance = alone.layer("transmittance");
+    scene.background_image = noise(48, 40);
+    Image composite = scene.background_image;
+    for (std::size_t i = 0; i < composite.pixels.size(); ++i)
+      composite.pixels[i] =
+          in_scatter.pixels[i] + surface.pixels[i] + transmittance.pixels[i] * composite.pixels[i];
+    expect_equal(render(scene).layer("beauty"), composite);
+  }
+}
+
+/// The camera's view of a holdout.
+TEST_P(EveryArithmetic, a_holdout_shows_the_background_behind_the_fog_before_it) {
+  Scene scene = parse_scene(R"(
+background = [1, 2, 3]
+ambient = 5
+[camera]
+position = [0, 0, 4]
+fov = 1
+[image]
+width = 4
+height = 4
+[[media]]
+albedo = 0
+sigma_t = [0.1, 0.5, 1]
+shape = {type = "box", min = [-1, -1, -1], max = [1, 1, 1]}
+[[objects]]
+type = "sphere"
+radius = 0.5
+holdout = true
+)",
+                            "holdout");
+  const Film film = render(scene);
+  const Image beauty = film.layer("beauty"), depth = film.layer("depth");
+  // The nearest point of the sphere has half a metre of fog before it.
+  for (int c = 0; c < 3; ++c) {
+    const double want = (c + 1) * std::exp(-0.5 * std::array{0.1, 0.5, 1.}[std::size_t(c)]);
+    EXPECT_NEAR(beauty.at(2, 2, c), want, 1e-3 * want);
+  }
+  EXPECT_NEAR(depth.at(2, 2, 0), 3.5, 1e-3);
+}
+
+TEST_P(EveryArithmetic, a_cut_out_holdout_hides_what_is_behind_it_as_far_as_it_is_opaque) {
+  Scene scene = parse_scene(R"(
+background = 1
+ambient = 1
+[camera]
+position = [0, 0, 4]
+fov = 1
+[image]
+width = 1
+height = 1
+[[objects]]
+type = "rectangle"
+corner = [-1, -1, 0]
+u = [2, 0, 0]
+v = [0, 2, 0]
+opacity = 0.25
+tint = [1, 0.5, 0]
+albedo = 1
+holdout = true
+[[objects]]
+type = "rectangle"
+corner = [-1, -1, -1]
+u = [2, 0, 0]
+v = [0, 2, 0]
+albedo = [0.2, 0.4, 0.6]
+)",
+                            "holdout");
+  const Film film = render(scene);
+  const Image beauty = film.layer("beauty"), transmittance = film.layer("transmittance");
+  const float wall[3] = {0.75f * 0.2f, 0.75f * 0.5f * 0.4f, 0};
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(beauty.at(0, 0, c), 0.25f + wall[c], 1e-6f);
+    EXPECT_NEAR(transmittance.at(0, 0, c), 0.25f, 1e-6f);
+  }
+}
+
+TEST_P(EveryArithmetic, a_holdout_shadows_the_fog_as_any_object_does) {
+  Scene scene = veiled(32, 24);
+  const Image want = render(scene).layer("in_scatter");
+  for (Object& object : scene.objects) object.holdout = true;
+  EXPECT_EQ(render(scene).layer("in_scatter").pixels, want.pixels);
+}
+
+TEST(Holdouts, are_objects_of_every_kind) {
+  for_each_member<Objects>([](auto object) {
+    object.holdout = true;
+    Parts parts = single_part(Sphere());
+    object.place(parts, object.name);
+    EXPECT_TRUE(parts.objects[0].holdout) << object.name;
+  });
+  const Scene scene = parse_scene("[[objects]]\ntype = \"tree\"\nholdout = true\n", "tree");
+  EXPECT_GT(scene.objects.size(), 1u);
+  for (const Object& object : scene.objects) EXPECT_TRUE(object.holdout) << object.name;
+}
+
+TEST(Backgrounds, come_from_the_scene_or_the_command_line) {
+  const Folder folder;
+  Image plate = noise(8, 6);
+  write_pfm(folder / "a plate's \"own\" name.pfm", picture_of(plate));
+  test::write_bytes(folder / "scene.toml",
+                    "background_image = '''a plate's \"own\" name.pfm'''\nbackground = 7\n"
+                    "[image]\nwidth = 8\nheight = 6\n");
+  EXPECT_EQ(load_scene(folder / "scene.toml").background_image.pixels, plate.pixels);
+  test::write_bytes(folder / "plain.toml", "background = 7\n[image]\nwidth = 8\nheight = 6\n");
+  const auto outcome = test::run({"render", folder / "plain.toml", "--background",
+                                  folder / "a plate's \"own\" name.pfm", "-o", folder / "out.pfm"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_image(folder / "out.pfm").pixels, plate.pixels);
+}
+
+/// The one line that the program says of a scene, with the folder's path left out.
+std::string complaint(const Folder& folder, const std::vector<std::string>& flags) {
+  std::vector<std::string> words = {"render", folder / "scene.toml", "-o", folder / "out.exr"};
+  words.insert(words.end(), flags.begin(), flags.end());
+  const auto outcome = test::run(words);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
+  std::string text = outcome.err;
+  const std::string here = folder / "";
+  for (std::size_t i; (i = text.find(here)) != std::string::npos;) text.erase(i, here.size());
+  return text;
+}
+
+TEST(Backgrounds, that_cannot_serve_are_told_in_one_line) {
+  const Folder folder;
+  test::write_bytes(folder / "scene.toml", "background_image = \"plate.pfm\"\n");
+  EXPECT_EQ(complaint(folder, {}),
+            "scene.toml:1:20: background_image names a picture that is not to be had: plate.pfm: "
+            "cannot be read: No such file or directory\n");
+  write_pfm(folder / "plate.pfm", picture_of(noise(8, 6)));
+  EXPECT_EQ(complaint(folder, {}),
+            "scene.toml:1:20: background_image names a picture of another size: plate.pfm is 8 x 6 "
+            "pixels; accepted: 640 x 360, the picture's\n");
+  std::string bytes = test::bytes_of(folder / "plate.pfm");
+  const float hole = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(bytes.data() + bytes.size() - sizeof hole, &hole, sizeof hole);
+  test::write_bytes(folder / "hole.pfm", bytes);
+  EXPECT_THAT(
+      complaint(folder, {"--size", "8x6", "--background", folder / "hole.pfm"}),
+      HasSubstr("names a picture with a hole: hole.pfm is nan at pixel 7,0; accepted: finite"));
+  test::write_bytes(folder / "text.png", "no picture");
+  EXPECT_THAT(complaint(folder, {"--background", folder / "text.png"}),
+              HasSubstr("background_image names a picture that is not to be had: text.png"));
+}
+
+}  // namespace
+}  // namespace airlight
