@@ -412,7 +412,7 @@ TEST_F(Gltf, takes_the_camera_and_directional_lights) {
   EXPECT_NEAR(model.camera->target.x, 0, 1e-12);
   EXPECT_NEAR(model.camera->fov, 60, 1e-12);
   ASSERT_EQ(model.lights.size(), 1U);
-  const auto& sun = std::get<Directional>(model.lights[0]);
+  const Directional& sun = model.lights[0];
   EXPECT_EQ(sun.irradiance, Rgb<double>(4, 2, 0));
   EXPECT_NEAR(sun.direction.x, -1, 1e-12);
   EXPECT_THAT(model.remarks, ElementsAre("1 point and spot lights of the file are left out"));

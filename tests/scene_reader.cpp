@@ -191,7 +191,7 @@ TEST(SceneReader, names_a_missing_key) {
             "fog.toml:1:1: lights.0.irradiance is missing; a number or [r, g, b], each of at least "
             "0 W/m2 (on a surface that faces the light, outside the medium)");
   EXPECT_EQ(error_of("[[lights]]\nirradiance = 1\n"),
-            "fog.toml:1:1: lights.0.type is missing; accepted: directional");
+            "fog.toml:1:1: lights.0.type is missing; accepted: collimated, directional");
 }
 
 TEST(SceneReader, names_the_words_where_one_is_wrong) {

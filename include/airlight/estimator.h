@@ -25,6 +25,7 @@ struct MediumRay {
   F t_enter;          ///< [m]
   F t_max;         ///< the length inside, up to the surface or the exit; 0 where there is none  [m]
   Mask<F> active;  ///< lanes with t_max > 0
+  Rgb<F> dimmed{F(1)};      ///< what the medium lets pass between the camera and the entry
   std::uint32_t index = 0;  ///< of the ray in its pixel
   bool filtered = false;    ///< whether glass or cut-outs may stand between the camera and t_max
 };

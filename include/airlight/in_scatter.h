@@ -24,8 +24,8 @@ void with_medium_ray(const Medium& medium, const CameraRay<F>& camera, Add&& add
 /// the estimates of several lights, and average those of several rays of a pixel, before
 /// `radiance()` is asked of the outcome. Ask `estimator.unsupported(medium, light)` first.  [W/(m²
 /// sr)]
-template <Real F, AnswersVisibility<F> W>
-Estimate<F> in_scatter(const Sampled& estimator, const Medium& medium, const Directional& light,
+template <Real F, class L, AnswersVisibility<F> W>
+Estimate<F> in_scatter(const Sampled& estimator, const Medium& medium, const L& light,
                        const CameraRay<F>& camera, std::uint32_t samples, const Sampler<F>& sampler,
                        const W& world, int light_index = 0) noexcept {
   Halves<F> sums;
@@ -39,8 +39,8 @@ Estimate<F> in_scatter(const Sampled& estimator, const Medium& medium, const Dir
 
 /// The same in closed form, exact. `world` tells which parts of the ray are lit; `Unshadowed{}`
 /// says all.  [W/(m² sr)]
-template <class W>
-Rgb<double> in_scatter(const ClosedForm& estimator, const Medium& medium, const Directional& light,
+template <class L, class W>
+Rgb<double> in_scatter(const ClosedForm& estimator, const Medium& medium, const L& light,
                        const CameraRay<double>& camera, const W& world,
                        int light_index = 0) noexcept {
   Halves<double> sums;

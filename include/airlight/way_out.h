@@ -44,6 +44,32 @@ struct WayOut {
     for (int i = 0; i <= segments; ++i) length[i] = length_at(t[i]);
   }
 
+  /// The same way where it may also end at a distance a_new + b_new t: one line more. It is lowest
+  /// in one interval, so that the envelope has two kinks more at most.
+  WayOut<F, max_segments + 2> with_line(F a_new, F b_new) const noexcept {
+    F from = t[0], to = t[segments];
+    WayOut<F, max_segments + 2> way;
+    for (int i = 0; i < segments; ++i) {
+      const F slope = b[i] - b_new;
+      const F crossing = (a_new - a[i]) / select(slope == F(0), F(1), slope);
+      from = select(slope > F(0), max(from, crossing), from);
+      to = select(slope < F(0), min(to, crossing), to);
+      way.a[i] = a[i], way.b[i] = b[i];
+    }
+    way.segments = segments + 2;
+    for (int i = segments; i < way.segments; ++i) way.a[i] = a_new, way.b[i] = b_new;
+    // Where the new line is nowhere lowest, these are no kinks, which does no harm.
+    const F kinks[2] = {clamp(from, t[0], t[segments]), clamp(to, t[0], t[segments])};
+    way.t[0] = t[0];
+    for (int i = 0; i < segments; ++i) way.t[i + 1] = t[i + 1];
+    for (int k = 0; k < 2; ++k) {
+      way.t[segments + k + 1] = way.t[segments + k];
+      for (int i = segments + k; i > 0; --i) way.t[i] = max(way.t[i - 1], min(way.t[i], kinks[k]));
+    }
+    way.measure();
+    return way;
+  }
+
   /// The same way restricted to [from, to].
   WayOut clipped(F from, F to) const noexcept {
     WayOut part = *this;

@@ -49,7 +49,8 @@ Interval<double> either(Interval<double> a, Interval<double> b) {
 
 }  // namespace
 
-ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel) : travel_(travel) {
+ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel, double start)
+    : travel_(travel), start_(start) {
   for (const Object& object : scene.objects) {
     const SurfaceFilter surface(scene, object);
     if (surface.is_clear()) continue;
@@ -58,14 +59,38 @@ ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel) : trav
           "object \"{}\" lets light through; exact shadows are known of opaque objects only",
           object.name));
     if (const auto* sphere = std::get_if<Sphere>(&object.geometry)) {
-      balls_.push_back({sphere->centre, sphere->radius});
+      add(*sphere);
       continue;
     }
     const Mesh& mesh = std::get<Mesh>(object.geometry);
     for (const auto& [a, b, c] : mesh.triangles)
-      add({Vec3<double>(mesh.positions[a]), Vec3<double>(mesh.positions[b]),
-           Vec3<double>(mesh.positions[c])});
+      add_beyond_start({Vec3<double>(mesh.positions[a]), Vec3<double>(mesh.positions[b]),
+                        Vec3<double>(mesh.positions[c])});
   }
+}
+
+void ParallelShadows::add(const Sphere& sphere) {
+  const double before = start_ - dot(sphere.centre, travel_);
+  if (before <= 0) {
+    balls_.push_back({sphere.centre, sphere.radius});
+  } else if (before < sphere.radius) {
+    // Its cap beyond the plane shades what a ball in the plane as wide as the cap shades.
+    balls_.push_back({sphere.centre + travel_ * before,
+                      sqrt((sphere.radius - before) * (sphere.radius + before))});
+  }
+}
+
+/// Cuts off what lies before the plane where light starts: a triangle or two remain, or none.
+void ParallelShadows::add_beyond_start(const Vec3<double> (&corners)[3]) {
+  Vec3<double> kept[4];
+  int count = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<double>&p = corners[i], &q = corners[(i + 1) % 3];
+    const double at_p = dot(p, travel_) - start_, at_q = dot(q, travel_) - start_;
+    if (at_p >= 0) kept[count++] = p;
+    if ((at_p < 0) != (at_q < 0)) kept[count++] = p + (q - p) * (at_p / (at_p - at_q));
+  }
+  for (int i = 2; i < count; ++i) add({kept[0], kept[i - 1], kept[i]});
 }
 
 void ParallelShadows::add(const Vec3<double> (&corners)[3]) {

@@ -6,17 +6,19 @@
 namespace airlight {
 
 struct Scene;
+struct Sphere;
 
 /// The shadows that opaque objects cast in light that travels the same way everywhere, exactly: a
 /// triangle shades the prism behind it, a sphere itself and half a cylinder. A ray meets each of
 /// them in one interval.
 class ParallelShadows {
  public:
-  /// `travel` is the unit direction in which the light goes. Throws Error if an object lets light
-  /// through.
-  ParallelShadows(const Scene& scene, Vec3<double> travel);
+  /// `travel` is the unit direction in which the light goes. It may start at a plane travel · p =
+  /// `start`, before which nothing throws shadows. Throws Error if an object lets light through.
+  ParallelShadows(const Scene& scene, Vec3<double> travel, double start = -far_away);
 
-  /// The parts of the ray in [0, t_max] that light reaches, in order, apart from each other.
+  /// The parts of the ray in [0, t_max] that light reaches, in order, apart from each other; of a
+  /// light that starts at a plane, the ray must lie beyond that.
   std::vector<Interval<double>> lit(Vec3<double> origin, Vec3<double> direction,
                                     double t_max) const;
 
@@ -34,11 +36,14 @@ class ParallelShadows {
     double radius;
   };
 
+  void add(const Sphere& sphere);
   void add(const Vec3<double> (&corners)[3]);
+  void add_beyond_start(const Vec3<double> (&corners)[3]);
   static Interval<double> shaded(const Prism& prism, Vec3<double> origin, Vec3<double> direction);
   Interval<double> shaded(const Ball& ball, Vec3<double> origin, Vec3<double> direction) const;
 
   Vec3<double> travel_;
+  double start_;
   std::vector<Prism> prisms_;
   std::vector<Ball> balls_;
 };

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "beam_image.h"
 #include "bounds.h"
 #include "embree_surfaces.h"
 #include "exact_surfaces.h"
@@ -33,8 +34,8 @@ class World {
 
   /// What light is multiplied by on the way from `from` to `from + t_max dir`: the product of (1 −
   /// opacity) · tint over the surfaces it crosses; 1 is free, 0 blocked. 0 in lanes that are not
-  /// active. All lights see the same surfaces, so far: `light` (index into Scene::lights) does not
-  /// matter.
+  /// active. `light` is an index into Scene::lights, whose image, if it has one, counts too, or
+  /// `no_light`.
   template <Real F>
   Rgb<F> transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active) const noexcept;
 
@@ -66,10 +67,16 @@ class World {
 };
 
 template <Real F>
-Rgb<F> World::transmit(Vec3<F> from, Vec3<F> dir, F t_max, int, Mask<F> active) const noexcept {
+Rgb<F> World::transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light,
+                       Mask<F> active) const noexcept {
   if (!any(active)) return {};
-  if (embree_) return embree_->transmit(from, dir, t_max, active);
-  return exact_->transmit(from, dir, t_max, active, surfaces_);
+  Rgb<F> passed = embree_ ? embree_->transmit(from, dir, t_max, active)
+                          : exact_->transmit(from, dir, t_max, active, surfaces_);
+  if (std::size_t(light) >= scene_->lights.size()) return passed;
+  if (const auto* beam = std::get_if<Collimated>(&scene_->lights[std::size_t(light)]))
+    if (beam->image >= 0)
+      passed *= through_image(*beam, scene_->textures[std::size_t(beam->image)], from, active);
+  return passed;
 }
 
 template <Real F>

@@ -26,6 +26,13 @@ bool all_opaque(const Scene& scene) {
   return true;
 }
 
+ParallelShadows shadows_of(const Scene& scene, const Directional& light) {
+  return {scene, light.direction};
+}
+ParallelShadows shadows_of(const Scene& scene, const Collimated& beam) {
+  return {scene, beam.direction, dot(beam.position, beam.direction)};
+}
+
 }  // namespace
 
 const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa) {
@@ -131,7 +138,7 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
               .estimator = estimator};
   if (std::holds_alternative<ClosedForm>(estimator))
     for (const Lights& light : scene.lights)
-      frame.shadows.emplace_back(scene, std::get<Directional>(light).direction);
+      std::visit([&](const auto& l) { frame.shadows.push_back(shadows_of(scene, l)); }, light);
   frame.layout = film_layout(scene, estimator);
   frame.light_group = light_group_indices(scene);
   frame.filter = settings.filter;

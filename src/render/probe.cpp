@@ -49,20 +49,22 @@ struct RayKeeper {
 };
 
 /// What the kernel does with one ray and one light, done once more with every step kept.
-template <int channels, class Space>
+template <int channels, class Space, class L>
 class LightProbe {
  public:
   LightProbe(const Frame& frame, const Space& space, const Sampler<double>& sampler,
-             const MediumRay<double>& ray, const Directional& light, int light_index)
+             const MediumRay<double>& ray, const L& light, int light_index)
       : frame_(frame),
         medium_(*frame.scene.medium),
         space_(space),
         sampler_(sampler),
-        ray_(ray),
+        whole_ray_(ray),
         light_(light),
         light_index_(light_index),
         toward_(Sampled::toward(light, light_index, ray.index, sampler)),
-        section_(space, ray.entry, space.vector(toward_), ray.t_max,
+        lit_(lit_part(light, medium_, space, ray)),
+        ray_(lit_.ray),
+        section_(lit_.space, ray_.entry, space.vector(toward_), ray_.t_max,
                  extinction<double, channels>(medium_)) {
     section_.trace_way_out();
   }
@@ -73,7 +75,8 @@ class LightProbe {
     result.toward = toward_;
     result.strength =
         medium_.sigma_s * light_.irradiance * evaluate(medium_.phase, dot(toward_, ray_.direction));
-    result.transmittance_integral = to_rgb(section_.integral);
+    if (!ray_.active) return result;  // a beam that passes by
+    result.transmittance_integral = ray_.dimmed * to_rgb(section_.integral);
     add_nodes(result);
     add_steps(result);
     add_samples(result, samples);
@@ -86,7 +89,9 @@ class LightProbe {
       // Where fewer lines touch the envelope than there are faces, segments have no length.
       if (i > 0 && section_.way.t[i] <= section_.way.t[i - 1]) continue;
       const double length = section_.way.length[i];
-      result.nodes.push_back({ray_.t_enter + section_.way.t[i], length, medium_.sigma_t * length});
+      const double t = ray_.t_enter + section_.way.t[i];
+      const double whole = ray_.t_enter - whole_ray_.t_enter + length;  // from the medium's edge
+      result.nodes.push_back({t, whole, medium_.sigma_t * whole});
     }
   }
 
@@ -95,12 +100,14 @@ class LightProbe {
     for (int i = 0; i < step_count; ++i) {
       const double t = (i + 0.5) * width, length = section_.way.length_at(t);
       const double along = ray_.t_enter + t;
-      ProbedStep step{along, pdf(t, length), to_rgb(section_.transmittance(length)), {}};
-      step.visibility = frame_.world.transmit(ray_.origin + ray_.direction * along, toward_,
-                                              double(far_away), light_index_, true);
+      ProbedStep step{
+          along, pdf(t, length), ray_.dimmed * to_rgb(section_.transmittance(length)), {}};
+      const Vec3<double> from = ray_.origin + ray_.direction * along;
+      step.visibility =
+          frame_.world.transmit(from, toward_, light_.reach(from), light_index_, true);
       if (ray_.filtered)
         step.visibility *=
-            frame_.world.transmit(ray_.origin, ray_.direction, along, light_index_, true);
+            frame_.world.transmit(ray_.origin, ray_.direction, along, no_light, true);
       result.steps.push_back(step);
       const Rgb<double>& seen = step.visibility;
       if (!(seen.r > 0 || seen.g > 0 || seen.b > 0)) continue;
@@ -117,7 +124,8 @@ class LightProbe {
     if (!sampled) return 0;
     return std::visit(
         [&](const Placement auto& place) {
-          return place.on(section_, Sampled::carried<double, channels>(medium_, light_))
+          return place
+              .on(section_, Sampled::carried<double, channels>(medium_, light_, ray_.dimmed))
               .pdf(t, length);
         },
         sampled->placement);
@@ -126,9 +134,9 @@ class LightProbe {
   void add_samples(ProbedLight& result, SampleRange samples) const {
     Halves<double> sums;
     add_in_scatter<channels>(
-        frame_, space_, light_, light_index_, ray_, samples, sampler_, sums,
+        frame_, space_, light_, light_index_, whole_ray_, samples, sampler_, sums,
         [&](const WatchedSample<double>& s) {
-          result.samples.push_back({s.index, ray_.t_enter + s.t, s.pdf, s.weight, s.visibility});
+          result.samples.push_back({s.index, s.t, s.pdf, s.weight, s.visibility});
         });
     sums[0] += sums[1];
     result.mean = sums[0] * (1. / samples.count);
@@ -138,19 +146,24 @@ class LightProbe {
   const Medium& medium_;
   const Space& space_;
   const Sampler<double>& sampler_;
-  const MediumRay<double>& ray_;
-  const Directional& light_;
+  const MediumRay<double>& whole_ray_;
+  const L& light_;
   int light_index_;
   Vec3<double> toward_;
-  Section<double, channels, Space> section_;
+  using Lit =
+      decltype(lit_part(std::declval<const L&>(), std::declval<const Medium&>(),
+                        std::declval<const Space&>(), std::declval<const MediumRay<double>&>()));
+  Lit lit_;
+  const MediumRay<double>& ray_;  ///< the part of it that the light reaches
+  Section<double, channels, std::remove_cvref_t<decltype(lit_.space)>> section_;
 };
 
 void probe_lights(const Frame& frame, const Sampler<double>& sampler,
                   const MediumRay<double>& medium_ray, ProbedRay& ray, SampleRange samples) {
   const Medium& medium = *frame.scene.medium;
   const auto probe_light = [&]<int channels>(const auto& space, const auto& light, int index) {
-    LightProbe<channels, std::remove_cvref_t<decltype(space)>> one(frame, space, sampler,
-                                                                   medium_ray, light, index);
+    LightProbe<channels, std::remove_cvref_t<decltype(space)>, std::remove_cvref_t<decltype(light)>>
+        one(frame, space, sampler, medium_ray, light, index);
     ray.lights.push_back(one(samples));
   };
   for (std::size_t i = 0; i < frame.scene.lights.size(); ++i)

@@ -43,7 +43,7 @@ struct ProbedLight {
   std::size_t light = 0;  ///< index into Scene::lights
   Vec3<double> toward;    ///< unit vector
   Rgb<double> strength;   ///< sigma_s times phase function times irradiance  [W/(m3 sr)]
-  Rgb<double> transmittance_integral;  ///< T, along the part of the ray in the medium  [m]
+  Rgb<double> transmittance_integral;  ///< T, along what the light reaches of it in the medium  [m]
   std::vector<ProbedNode> nodes;
   std::vector<ProbedSample> samples;
   std::vector<ProbedStep> steps;

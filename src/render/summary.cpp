@@ -115,13 +115,16 @@ std::vector<Vec3<double>> points_in_view(const Scene& scene, const World& world)
   return points;
 }
 
-LightSummary summary_of(const Directional& light, int index, const World& world,
+template <class L>
+LightSummary summary_of(const L& light, int index, const World& world,
                         const std::vector<Vec3<double>>& points) {
   LightSummary result{light.name, light.toward(), light.irradiance, light.angular_diameter, {}};
   if (points.empty()) return result;
   std::size_t lit = 0;
   for (const Vec3<double>& p : points) {
-    const Rgb<double> passes = world.transmit<double>(p, light.toward(), far_away, index, true);
+    if (!light.contains(p)) continue;
+    const Rgb<double> passes =
+        world.transmit<double>(p, light.toward(), light.reach(p), index, true);
     lit += passes.r > 0 || passes.g > 0 || passes.b > 0;
   }
   result.lit_part = double(lit) / double(points.size());

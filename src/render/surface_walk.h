@@ -141,13 +141,23 @@ class SurfaceWalk {
           frame_.scene.lights[std::size_t(i)]);
   }
 
+  /// Of a beam at the point p.  [W/m²]
+  Rgb<F> irradiance(const Collimated& beam, int light_index, const Crossing& at, Vec3<F> p,
+                    Vec3<F> from, SampleRange, Mask<F> found) const noexcept {
+    const Vec3<F> toward(beam.toward());
+    const Mask<F> struck = found & beam.contains(p);
+    if (!any(struck)) return {};
+    return arriving(toward, beam.reach(from), light_index, at, p, from, struck) *
+           Rgb<F>(beam.irradiance);
+  }
+
   /// Of light at the point p, whose shadow rays start at `from`: the mean over the samples of the
   /// camera ray. Directions to a disc belong to samples by their numbers, so that ranges of samples
   /// add up to the whole.  [W/m²]
   Rgb<F> irradiance(const Directional& light, int light_index, const Crossing& at, Vec3<F> p,
                     Vec3<F> from, SampleRange samples, Mask<F> found) const noexcept {
     if (!(light.angular_diameter > 0))
-      return arriving(Vec3<F>(light.toward()), light_index, at, p, from, found) *
+      return arriving(Vec3<F>(light.toward()), F(far_away), light_index, at, p, from, found) *
              Rgb<F>(light.irradiance);
     Rgb<F> sum;
     const std::uint32_t end = samples.first + samples.count;
@@ -156,22 +166,23 @@ class SurfaceWalk {
       const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_surface_ray);
       const Vec3<F> w = uniform_cap(Vec3<F>(light.toward()), F(Scalar<F>(light.cap_height())),
                                     sampler_.two(index, stream::surface(light_index)));
-      sum += arriving(w, light_index, at, p, from, found) * F(Scalar<F>(stop - i));
+      sum += arriving(w, F(far_away), light_index, at, p, from, found) * F(Scalar<F>(stop - i));
       i = stop;
     }
     return sum * Rgb<F>(light.irradiance) * F(Scalar<F>(1. / samples.count));
   }
 
-  /// The part of the light from w that the surface receives: cosine, shadows, fog.
-  Rgb<F> arriving(Vec3<F> w, int light_index, const Crossing& at, Vec3<F> p, Vec3<F> from,
+  /// The part of the light from w, where it starts `reach` away, that the surface receives: cosine,
+  /// shadows, fog.
+  Rgb<F> arriving(Vec3<F> w, F reach, int light_index, const Crossing& at, Vec3<F> p, Vec3<F> from,
                   Mask<F> found) const noexcept {
     const F cosine = max(dot(at.normal, w), F(0));
     const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
     if (!any(faces)) return {};
-    Rgb<F> part = frame_.world.transmit(from, w, F(far_away), light_index, faces) * cosine;
+    Rgb<F> part = frame_.world.transmit(from, w, reach, light_index, faces) * cosine;
     if (medium_) {
       const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(p), space_.vector(w)});
-      part *= extinguished(max(chord.t_exit - chord.t_enter, F(0)));
+      part *= extinguished(max(min(chord.t_exit, reach) - chord.t_enter, F(0)));
     }
     return select(faces, part, Rgb<F>());
   }

@@ -1,6 +1,7 @@
 #include "scene/light_documents.h"
 
 #include "scene/direction.h"
+#include "scene/named_texture.h"
 #include "scene/ways.h"
 
 namespace airlight {
@@ -18,6 +19,43 @@ Directional DirectionalDocument::light(const Cursor& at) const {
     at.at_or_here("direction").refuse("is no direction: at least one number must not be 0");
   light.direction = *unit;
   return light;
+}
+
+Collimated CollimatedDocument::light(const Cursor& at, const Files& files,
+                                     std::vector<Texture>& textures) const {
+  Collimated beam;
+  beam.irradiance = *irradiance;
+  beam.position = *position;
+  const bool has_direction = way_taken(at, {{"direction"}, {"target"}}) == 0;
+  const auto travel = unit_vector(has_direction ? *direction : *target - *position);
+  if (!travel && has_direction)
+    at.at_or_here("direction").refuse("is no direction: at least one number must not be 0");
+  if (!travel)
+    at.at_or_here("target").refuse("is the light's own position; accepted: any other point");
+  beam.direction = *travel;
+
+  constexpr double all_but_parallel = 1e-6;
+  Vec3<double> upward = up.value_or(Vec3<double>(0, 1, 0));
+  if (up) {
+    const auto unit = unit_vector(*up);
+    if (!unit) at.at_or_here("up").refuse("is no direction: at least one number must not be 0");
+    upward = *unit;
+    if (length(cross(beam.direction, upward)) < all_but_parallel)
+      at.at_or_here("up").refuse("is parallel to the beam; accepted: any other direction");
+  } else if (length(cross(beam.direction, upward)) < all_but_parallel) {
+    upward = {0, 0, -1};
+  }
+  beam.right = normalize(cross(beam.direction, upward));
+  beam.up = cross(beam.right, beam.direction);
+
+  beam.cross_section = cross_section_of(*cross_section, at.at_or_here("cross_section"));
+  if (image) {
+    Texture texture = named_texture(*image, at.at_or_here("image"), files.folder);
+    texture.wrap_u = texture.wrap_v = Wrap::clamp;
+    beam.image = int(textures.size());
+    textures.push_back(std::move(texture));
+  }
+  return beam;
 }
 
 }  // namespace airlight

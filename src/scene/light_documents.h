@@ -4,7 +4,9 @@
 #include <optional>
 #include <variant>
 
+#include "scene/cross_section_documents.h"
 #include "scene/cursor.h"
+#include "scene/objects/files.h"
 #include "scene/required.h"
 
 namespace airlight {
@@ -39,7 +41,45 @@ struct DirectionalDocument {
   Directional light(const Cursor& at) const;
 };
 
+/// A beam as a file says it.
+struct CollimatedDocument {
+  Required<Rgb<double>> irradiance;
+  Required<Vec3<double>> position;
+  std::optional<Vec3<double>> direction;
+  std::optional<Vec3<double>> target;
+  std::optional<Vec3<double>> up;
+  Required<CrossSectionDocuments> cross_section;
+  std::optional<std::string> image;
+
+  static constexpr auto name = Collimated::name;
+  static constexpr auto meaning = Collimated::meaning;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    using D = CollimatedDocument;
+    field("irradiance", &D::irradiance, unit::irradiance, at_least(0),
+          "across the beam, where it starts");
+    field("position", &D::position, unit::metre, any_number(),
+          "the middle of the plane where the beam starts; nothing before it throws shadows");
+    field("direction", &D::direction, unit::none, any_number(),
+          "of travel, of any length; instead of target");
+    field("target", &D::target, unit::metre, any_number(),
+          "a point that the middle of the beam goes through; instead of direction");
+    field("up", &D::up, unit::none, any_number(),
+          "what is up in the cross-section and its image, not along the beam; if nothing is said, "
+          "+y, or -z for a vertical beam");
+    field("cross_section", &D::cross_section, unit::none, any_number(), "the outline of the beam");
+    field("image", &D::image, unit::none, any_number(),
+          "picture that filters the beam, stretched over the rectangle around the cross-section: "
+          "black blocks, white passes, colours tint; its path starts at the scene file");
+  }
+
+  /// Throws Error unless the direction is given in exactly one way; for an image that cannot be
+  /// read. The image becomes the last of the textures.
+  Collimated light(const Cursor& at, const Files& files, std::vector<Texture>& textures) const;
+};
+
 /// Every kind of light as a file says it.
-using LightDocuments = std::variant<DirectionalDocument>;
+using LightDocuments = std::variant<DirectionalDocument, CollimatedDocument>;
 
 }  // namespace airlight

@@ -67,6 +67,8 @@ std::vector<Chapter> scene_reference() {
                               "a homogeneous medium: sigma_s and sigma_a, or albedo and sigma_t, "
                               "or albedo and visibility")}},
       {"Lights", "[[lights]], told apart by type.", members_of<LightDocuments>()},
+      {"Cross-sections", "cross_section of a collimated light, told apart by type.",
+       members_of<CrossSectionDocuments>()},
       {"Phase functions", "phase of a medium, told apart by type.", members_of<Phases>()},
       {"Shapes", "shape of a medium, told apart by type.", members_of<ShapeDocuments>()},
       {"Objects",

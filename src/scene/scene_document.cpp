@@ -87,7 +87,11 @@ Scene scene_of(const Value& value, const Files& files) {
   for (std::size_t i = 0; i < document.lights.size(); ++i)
     std::visit(
         [&](const auto& light) {
-          scene.lights.push_back(light.light(at.at_or_here("lights").element(i)));
+          const Cursor here = at.at_or_here("lights").element(i);
+          if constexpr (requires { light.light(here, files, scene.textures); })
+            scene.lights.push_back(light.light(here, files, scene.textures));
+          else
+            scene.lights.push_back(light.light(here));
         },
         document.lights[i]);
   for (std::size_t i = 0; i < document.objects.size(); ++i)

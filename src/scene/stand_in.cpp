@@ -188,8 +188,7 @@ StandIn stand_in_for(const Model& model, const std::string& file) {
     result.assumed.push_back({{"lights.0.elevation", direction},
                               fmt::format("a sun at elevation {:.0f}", view.sun.elevation)});
   }
-  for (const Lights& light : model.lights)
-    result.toml += std::visit([](const auto& l) { return light_table(l); }, light);
+  for (const Directional& light : model.lights) result.toml += light_table(light);
   result.toml += fog_table(view.fog);
   result.assumed.push_back(
       {{"media.0.shape"},

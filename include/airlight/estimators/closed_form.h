@@ -1,11 +1,11 @@
 #pragma once
-#include "../estimator.h"
+#include "../lit_part.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
 
-/// The exact radiance for parallel light: the closed form summed over the parts of the camera ray
-/// that are lit. It asks the world where those are, `world.lit(origin, direction, t_max, light,
-/// sink)` with sink(t_from, t_to).
+/// The exact radiance for parallel light, from far away or in a beam: the closed form summed over
+/// the parts of the camera ray that are lit. It asks the world where those are, `world.lit(origin,
+/// direction, t_max, light, sink)` with sink(t_from, t_to).
 struct ClosedForm {
   static constexpr auto name = "closed_form";
   static constexpr auto meaning =
@@ -18,26 +18,33 @@ struct ClosedForm {
              "convex shape";
     if (const auto* sun = std::get_if<Directional>(&light); sun && sun->angular_diameter > 0)
       return "closed_form is for parallel light: set angular_diameter = 0";
+    if (const auto* beam = std::get_if<Collimated>(&light); beam && beam->image >= 0)
+      return "closed_form is for beams without an image; give the beam another outline instead";
     return nullptr;
   }
 
-  template <int channels, class Space, class W>
-  void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
-           const MediumRay<double>& ray, SampleRange samples, bool halve_by_ray, const W& world,
-           Halves<double>& sums) const noexcept {
+  template <int channels, class Space, class L, class W>
+  void add(const Medium& medium, const Space& space, const L& light, int light_index,
+           const MediumRay<double>& whole_ray, SampleRange samples, bool halve_by_ray,
+           const W& world, Halves<double>& sums) const noexcept {
+    const auto lit_by = lit_part(light, medium, space, whole_ray);
+    const MediumRay<double>& ray = lit_by.ray;
+    if (!ray.active) return;
+    using LitSpace = std::remove_cvref_t<decltype(lit_by.space)>;
     const Vec3<double> w = light.toward();
-    Section<double, channels, Space> section(space, ray.entry, space.vector(w), ray.t_max,
-                                             extinction<double, channels>(medium));
+    Section<double, channels, LitSpace> section(lit_by.space, ray.entry, space.vector(w), ray.t_max,
+                                                extinction<double, channels>(medium));
     section.trace_way_out();
     Channels<double, channels> lit{};
     const Vec3<double> entry = ray.origin + ray.direction * ray.t_enter;
     world.lit(entry, ray.direction, ray.t_max, light_index, [&](double from, double to) {
       const auto part = section.way.clipped(from, to);
       for (int c = 0; c < channels; ++c)
-        lit[c] += Trapezoids<double, Space::max_segments>(part, section.sigma_t[c])
+        lit[c] += Trapezoids<double, LitSpace::max_segments>(part, section.sigma_t[c])
                       .transmittance_integral();
     });
-    const Rgb<double> radiance = medium.sigma_s * light.irradiance * to_rgb<double>(lit) *
+    const Rgb<double> radiance = medium.sigma_s * light.irradiance * ray.dimmed *
+                                 to_rgb<double>(lit) *
                                  evaluate(medium.phase, dot(w, ray.direction));
     for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i)
       sums[half_of(halve_by_ray ? ray.index : i)].plain += radiance;

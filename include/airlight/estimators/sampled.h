@@ -1,16 +1,17 @@
 #pragma once
 #include "../estimator.h"
 #include "../forms.h"
+#include "../lit_part.h"
 #include "../math/warp.h"
 #include "../placements.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
 
-/// What `Sampled` tells a watcher of each sample. Times count from the entry.
+/// What `Sampled` tells a watcher of each sample.
 template <Real F>
 struct WatchedSample {
   std::uint32_t index;
-  F t;                ///< [m]
+  F t;                ///< from the camera  [m]
   F pdf;              ///< [1/m]
   Rgb<F> weight;      ///< transmittance over pdf  [m]
   Rgb<F> visibility;  ///< 0 to 1
@@ -49,8 +50,8 @@ struct Sampled {
 
   /// Where light comes from when the way out of a camera ray is found: a wide disc gives every ray
   /// a direction of its own.
-  template <Real F>
-  static Vec3<F> toward(const Directional& light, int light_index, std::uint32_t ray,
+  template <Real F, class L>
+  static Vec3<F> toward(const L& light, int light_index, std::uint32_t ray,
                         const Sampler<F>& sampler) noexcept {
     const Vec3<F> centre(light.toward());
     if (!(light.angular_diameter > narrow_disc)) return centre;
@@ -60,44 +61,53 @@ struct Sampled {
 
   /// What a metre of the medium scatters, but for a factor that all channels share: it decides
   /// between them.
-  template <Real F, int channels>
-  static Channels<F, channels> carried(const Medium& medium, const Directional& light) noexcept {
+  template <Real F, int channels, class L>
+  static Channels<F, channels> carried(const Medium& medium, const L& light,
+                                       const Rgb<F>& dimmed) noexcept {
     Channels<F, channels> result;
     for (int c = 0; c < channels; ++c)
-      result[c] = F(Scalar<F>(medium.sigma_s[c] * light.irradiance[c]));
+      result[c] = F(Scalar<F>(medium.sigma_s[c] * light.irradiance[c])) * dimmed[c];
     return result;
   }
 
   /// Adds the samples of one camera ray for one light. `channels` is 1 for a grey medium and 3
   /// otherwise; `watch` is told of every sample.
-  template <int channels, Real F, class Space, AnswersVisibility<F> W, class Watch>
-  void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
-           const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
+  template <int channels, Real F, class Space, class L, AnswersVisibility<F> W, class Watch>
+  void add(const Medium& medium, const Space& space, const L& light, int light_index,
+           const MediumRay<F>& whole_ray, SampleRange samples, bool halve_by_ray,
            const Sampler<F>& sampler, const W& world, Halves<F>& sums,
            Watch&& watch) const noexcept {
+    const auto lit = lit_part(light, medium, space, whole_ray);
+    const MediumRay<F>& ray = lit.ray;
+    if (!any(ray.active)) return;
     const bool disc = light.angular_diameter > 0;
     const bool wide = light.angular_diameter > narrow_disc;
     const F cap(Scalar<F>(light.cap_height()));
     const Vec3<F> centre(light.toward());
     const Vec3<F> w = toward(light, light_index, ray.index, sampler);
 
-    using Along = Section<F, channels, Space>;
-    Along section(space, ray.entry, space.vector(w), ray.t_max, extinction<F, channels>(medium));
+    using Along = Section<F, channels, std::remove_cvref_t<decltype(lit.space)>>;
+    Along section(lit.space, ray.entry, space.vector(w), ray.t_max,
+                  extinction<F, channels>(medium));
     if (!intersect_every_step) section.trace_way_out();
 
     const F toward_camera = evaluate(medium.phase, dot(w, ray.direction));
-    const Rgb<F> strength = Rgb<F>(medium.sigma_s * light.irradiance) * toward_camera;
+    const Rgb<F> strength = Rgb<F>(medium.sigma_s * light.irradiance) * ray.dimmed * toward_camera;
 
     std::array<Rgb<F>, 2> occluded, unoccluded;
     std::array<std::uint32_t, 2> count{};
     std::visit(
         [&](const Placement auto& place) {
-          const auto placed = place.on(section, carried<F, channels>(medium, light));
+          const auto placed = place.on(section, carried<F, channels>(medium, light, ray.dimmed));
           for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
             const F t = placed.sample(sampler.one(i, stream::distance(light_index)));
-            const F length = intersect_every_step
-                                 ? t + space.clip(LocalRay<F>{section.ray(t), section.w}).t_exit
-                                 : section.way.length_at(t);
+            const F along = ray.t_enter + t;
+            const Vec3<F> from = ray.origin + ray.direction * along;
+            const F reach = light.reach(from);
+            const F length =
+                intersect_every_step
+                    ? t + min(space.clip(LocalRay<F>{section.ray(t), section.w}).t_exit, reach)
+                    : section.way.length_at(t);
             Rgb<F> weight = to_rgb<F>(placed.weights(t, length));
             Vec3<F> to_light = w;
             if (disc && !wide) {
@@ -111,12 +121,10 @@ struct Sampled {
                                                                placed.pdf(t, length))) *
                        (phase / toward_camera);
             }
-            const F along = ray.t_enter + t;
-            const Vec3<F> from = ray.origin + ray.direction * along;
-            Rgb<F> visible = world.transmit(from, to_light, F(far_away), light_index, ray.active);
+            Rgb<F> visible = world.transmit(from, to_light, reach, light_index, ray.active);
             if (ray.filtered)
-              visible *= world.transmit(ray.origin, ray.direction, along, light_index, ray.active);
-            watch(WatchedSample<F>{i, t, placed.pdf(t, length), weight, visible});
+              visible *= world.transmit(ray.origin, ray.direction, along, no_light, ray.active);
+            watch(WatchedSample<F>{i, along, placed.pdf(t, length), weight, visible});
             const int half = half_of(halve_by_ray ? ray.index : i);
             occluded[half] += weight * visible;
             unoccluded[half] += select(ray.active, weight, Rgb<F>());
@@ -136,8 +144,8 @@ struct Sampled {
         form);
   }
 
-  template <int channels, Real F, class Space, AnswersVisibility<F> W>
-  void add(const Medium& medium, const Space& space, const Directional& light, int light_index,
+  template <int channels, Real F, class Space, class L, AnswersVisibility<F> W>
+  void add(const Medium& medium, const Space& space, const L& light, int light_index,
            const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
            const Sampler<F>& sampler, const W& world, Halves<F>& sums) const noexcept {
     add<channels>(medium, space, light, light_index, ray, samples, halve_by_ray, sampler, world,

@@ -16,6 +16,18 @@ struct Directional {
   /// Unit vector towards the light.
   Vec3<double> toward() const noexcept { return -direction; }
 
+  /// Whether it reaches a point that nothing shades: everywhere.
+  template <Real F>
+  Mask<F> contains(Vec3<F>) const noexcept {
+    return F(0) == F(0);
+  }
+
+  /// How far things can stand in its way: without end.  [m]
+  template <Real F>
+  F reach(Vec3<F>) const noexcept {
+    return F(far_away);
+  }
+
   /// 1 − cos of the disc's angular radius, without cancellation.
   double cap_height() const noexcept {
     const double s = std::sin(angular_diameter * (pi / 720));

@@ -55,11 +55,6 @@ constexpr U reversed_sobol_second(U index) noexcept {
   return index ^ ((index >> 16) & U(0x0000ffffu));
 }
 
-template <Real F>
-struct Vec2 {
-  F x, y;
-};
-
 /// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are
 /// independent.
 template <Real F>

@@ -35,6 +35,12 @@ struct Vec3 {
   using Narrow = Scalar<F>;
 };
 
+/// A point or a direction in a plane.
+template <Real F>
+struct Vec2 {
+  F x, y;
+};
+
 template <class F>
 constexpr F dot(Vec3<F> a, Vec3<F> b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -13,7 +13,7 @@ struct Model {
   std::vector<Object> objects;    ///< meshes in world space
   std::vector<Texture> textures;  ///< what the materials' indices mean
   std::optional<Camera> camera;   ///< the first of the file, if it has one
-  std::vector<Lights> lights;
+  std::vector<Directional> lights;
   std::vector<std::string> remarks;  ///< what was filled in or left out, a sentence each
 };
 

@@ -1,7 +1,7 @@
 #include "scene/objects/keys.h"
 
-#include "error.h"
 #include "scene/models/transparent_texels.h"
+#include "scene/named_texture.h"
 #include "scene/rotation.h"
 
 namespace airlight {
@@ -10,11 +10,7 @@ namespace {
 /// Adds a picture to the parts' textures; returns its index.
 int add_texture(Parts& parts, const std::string& file, const Cursor& at,
                 const std::filesystem::path& folder) {
-  try {
-    parts.textures.push_back(load_texture(folder / file));
-  } catch (const Error& error) {
-    at.complain(std::string("names a picture that is not to be had: ") + error.what());
-  }
+  parts.textures.push_back(named_texture(file, at, folder));
   return int(parts.textures.size()) - 1;
 }
 

@@ -145,9 +145,9 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   return std::nullopt;
 }
 
-std::vector<Lights> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
+std::vector<Directional> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
                                 std::vector<std::string>& remarks) {
-  std::vector<Lights> lights;
+  std::vector<Directional> lights;
   std::size_t left_out = 0;
   for (const PlacedNode& placed : nodes) {
     const auto* found = light_of(document.model, document.model.nodes[std::size_t(placed.node)]);

@@ -22,7 +22,7 @@ std::vector<PlacedNode> place_nodes(const Document& document);
 std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes);
 
 /// The directional lights among the nodes. What else shines is named in a remark.
-std::vector<Lights> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
+std::vector<Directional> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
                                 std::vector<std::string>& remarks);
 
 }  // namespace airlight::gltf
