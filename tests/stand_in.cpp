@@ -45,6 +45,23 @@ Model room() {
   return model;
 }
 
+/// A room of 8 m x 5 m x 6 m without windows but for an opening of 2 m x 2 m in its roof.
+Model room_with_skylight() {
+  Mesh mesh;
+  add_box(mesh, {-1, -1, -1}, {9, 0, 7});
+  add_box(mesh, {-1, 0, -1}, {0, 6, 7});
+  add_box(mesh, {8, 0, -1}, {9, 6, 7});
+  add_box(mesh, {0, 0, -1}, {8, 6, 0});
+  add_box(mesh, {0, 0, 6}, {8, 6, 7});
+  add_box(mesh, {0, 5, 0}, {5, 5.2, 6});
+  add_box(mesh, {7, 5, 0}, {8, 5.2, 6});
+  add_box(mesh, {5, 5, 0}, {7, 5.2, 2});
+  add_box(mesh, {5, 5, 4}, {7, 5.2, 6});
+  Model model;
+  model.objects.push_back(object(std::move(mesh)));
+  return model;
+}
+
 /// What a stand-in's scene file means, the model itself left out.
 Scene scene_of(const StandIn& stand_in) {
   return parse_scene(stand_in.toml.substr(0, stand_in.toml.find("[[objects]]")), "model");
@@ -69,6 +86,18 @@ TEST(LookAround, measures_distances) {
   }
 }
 
+TEST(LookAround, finds_the_sky_where_nothing_opaque_is_in_the_way) {
+  Model model = room_with_skylight();
+  const Vec3<double> up{0, 1, 0};
+  const std::vector<Sight> sights{{{6, 1, 3}, up}, {{3, 1, 3}, up}, {{6, 9, 3}, -up}};
+  EXPECT_EQ(see_the_sky(model.objects, sights), (std::vector<std::uint8_t>{1, 0, 0}));
+  model.objects.push_back({"ball", Sphere{{6, 3, 3}, 0.5}, {}});
+  EXPECT_EQ(see_the_sky(model.objects, {sights[0]})[0], 0);
+  EXPECT_EQ(see_the_sky(model.objects, {{{6, 4, 3}, up}})[0], 1);
+  model.objects.back().material.opacity = 0.5;
+  EXPECT_EQ(see_the_sky(model.objects, {sights[0]})[0], 1);
+}
+
 TEST(StandIn, sees_a_thing_from_outside) {
   const StandIn stand_in = stand_in_for(cube(), "cube.obj");
   EXPECT_THAT(stand_in.remark({}), HasSubstr("a camera outside at "));
@@ -90,6 +119,40 @@ TEST(StandIn, sees_a_room_from_inside_with_the_sun_in_its_window) {
   const Vec3<double> light = std::get<Directional>(scene.lights.at(0)).direction;
   EXPECT_LT(light.x, -0.5) << "the window is open to +x";
   EXPECT_LT(light.y, -0.2);
+}
+
+/// The part of the points in the camera's view, spread over the fog, that the sun reaches.
+double lit_part(const Model& model, const Scene& scene) {
+  const Box& fog = std::get<Box>(scene.medium->shape);
+  const Vec3<double> sun = std::get<Directional>(scene.lights.at(0)).toward();
+  const Vec3<double> view = normalize(scene.camera.target - scene.camera.position);
+  std::vector<Sight> sights;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3<double> part{(i % 10 + 0.5) / 10, (i / 10 % 10 + 0.5) / 10, (i / 100 + 0.5) / 10};
+    const Vec3<double> size = fog.max - fog.min;
+    const Vec3<double> p =
+        fog.min + Vec3<double>{size.x * part.x, size.y * part.y, size.z * part.z};
+    if (dot(normalize(p - scene.camera.position), view) > 0.8) sights.push_back({p, sun});
+  }
+  double lit = 0;
+  for (const std::uint8_t sees : see_the_sky(model.objects, sights)) lit += sees;
+  return lit / double(sights.size());
+}
+
+TEST(StandIn, shows_shafts_of_light_in_a_room_with_one_small_window) {
+  const Model model = room_with_skylight();
+  const Scene scene = scene_of(stand_in_for(model, "room.obj"));
+  EXPECT_GT(lit_part(model, scene), 0.03);
+  EXPECT_LT(lit_part(model, scene), 0.7);
+}
+
+TEST(StandIn, turns_a_model_s_camera_s_sun_and_a_model_s_sun_s_camera_to_the_shafts) {
+  Model with_camera = room();
+  with_camera.camera = Camera{{1, 1.5, 3.8}, {3, 1.5, 2}, {0, 1, 0}, 50};
+  EXPECT_GT(lit_part(with_camera, scene_of(stand_in_for(with_camera, "room.obj"))), 0.03);
+  Model with_sun = room();
+  with_sun.lights.push_back(Directional{{1, 2, 3}, normalize(Vec3<double>{-1, -0.5, 0.2}), 0.5});
+  EXPECT_GT(lit_part(with_sun, scene_of(stand_in_for(with_sun, "room.obj"))), 0.03);
 }
 
 TEST(StandIn, keeps_the_camera_and_the_lights_of_a_model) {

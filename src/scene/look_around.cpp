@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace airlight {
 namespace {
@@ -41,20 +42,25 @@ struct Some {
   std::size_t begin, end;
 };
 
-/// Those that may meet the triangle abc. They rise with their index, so that few are as high above
-/// the horizon as a small triangle.
+/// Those that may meet a ball at a height above the horizon, both as sines. They rise with their
+/// index, so that few are as high as something small.
+Some directions_near(float height, float radius) {
+  // An angle is at most pi / 2 times its sine, and height changes by less than the angle.
+  const float margin = 1.6F * radius + 1e-3F;
+  const auto index = [](float h) {
+    return std::clamp((h - float(lowest)) * float(n / (highest - lowest)), 0.0F, float(n));
+  };
+  return {std::size_t(index(height - margin)), std::size_t(std::ceil(index(height + margin)))};
+}
+
+/// Those that may meet the triangle abc.
 Some directions_to(Vec3<float> a, Vec3<float> b, Vec3<float> c) {
   const Vec3<float> centre = (a + b + c) * (1 / 3.0F);
   const Vec3<float> ca = a - centre, cb = b - centre, cc = c - centre;
   const float radius = std::sqrt(std::max({dot(ca, ca), dot(cb, cb), dot(cc, cc)}));
   const float far = length(centre);
   if (!(radius < 0.9F * far)) return {0, n};
-  // An angle is at most pi / 2 times its sine, and height changes by less than the angle.
-  const float height = centre.y / far, margin = 1.6F * radius / far + 1e-3F;
-  const auto index = [](float h) {
-    return std::clamp((h - float(lowest)) * float(n / (highest - lowest)), 0.0F, float(n));
-  };
-  return {std::size_t(index(height - margin)), std::size_t(std::ceil(index(height + margin)))};
+  return directions_near(centre.y / far, radius / far);
 }
 
 /// A ray from the origin meets the triangle abc where it lies on the same side of the planes
@@ -80,11 +86,64 @@ void add_triangle(Vec3<float> a, Vec3<float> b, Vec3<float> c, const Directions&
   }
 }
 
-void see(const Mesh& mesh, Vec3<float> from, Nearness& nearest) {
+/// Some of a mesh's triangles, as neighbours in a file are in space, and a ball around them.
+struct Chunk {
+  static constexpr std::size_t most = 16;
+
+  std::size_t begin, end;
+  Vec3<float> centre;
+  float radius;
+};
+
+std::vector<Chunk> chunks_of(const Mesh& mesh) {
+  std::vector<Chunk> chunks;
+  for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += Chunk::most) {
+    const std::size_t end = std::min(begin + Chunk::most, mesh.triangles.size());
+    Vec3<float> low = mesh.positions[mesh.triangles[begin][0]], high = low;
+    for (std::size_t t = begin; t < end; ++t)
+      for (const std::uint32_t i : mesh.triangles[t]) {
+        const Vec3<float> p = mesh.positions[i];
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+    chunks.push_back({begin, end, (low + high) * 0.5F, 0.5F * length(high - low)});
+  }
+  return chunks;
+}
+
+/// Those of each object; none of a sphere.
+std::vector<std::vector<Chunk>> chunks_of(const std::vector<Object>& objects) {
+  std::vector<std::vector<Chunk>> chunks;
+  for (const Object& object : objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.geometry);
+    chunks.push_back(mesh ? chunks_of(*mesh) : std::vector<Chunk>());
+  }
+  return chunks;
+}
+
+/// Whether any of the directions may meet a ball of this radius around a point.
+bool is_met(Vec3<float> centre, float radius, const Directions& d) {
+  const float far = length(centre);
+  if (!(radius < 0.9F * far)) return true;
+  const Some some = directions_near(centre.y / far, radius / far);
+  // A little wider than the ball, for rounding.
+  const float sine = radius / far + 1e-3F;
+  const float least = far * std::sqrt(std::max(1 - sine * sine, 0.0F));
+  for (std::size_t i = some.begin; i < some.end; ++i)
+    if (centre.x * d.x[i] + centre.y * d.y[i] + centre.z * d.z[i] > least) return true;
+  return false;
+}
+
+void see(const Mesh& mesh, std::span<const Chunk> chunks, Vec3<float> from, Nearness& nearest) {
   const Directions& directions = all_directions();
-  for (const auto& [i, j, k] : mesh.triangles)
-    add_triangle(mesh.positions[i] - from, mesh.positions[j] - from, mesh.positions[k] - from,
-                 directions, nearest);
+  for (const Chunk& chunk : chunks) {
+    if (!is_met(chunk.centre - from, chunk.radius, directions)) continue;
+    for (std::size_t t = chunk.begin; t < chunk.end; ++t) {
+      const auto& [i, j, k] = mesh.triangles[t];
+      add_triangle(mesh.positions[i] - from, mesh.positions[j] - from, mesh.positions[k] - from,
+                   directions, nearest);
+    }
+  }
 }
 
 void see(const Sphere& sphere, Vec3<float> from, Nearness& nearest) {
@@ -98,6 +157,35 @@ void see(const Sphere& sphere, Vec3<float> from, Nearness& nearest) {
     const float near = t > 0 ? float(1 / t) : 0;
     if (near > std::abs(nearest[i])) nearest[i] = outside ? near : -near;
   }
+}
+
+/// Whether the ray from the origin along d meets the triangle abc: as add_triangle has it.
+bool meets(Vec3<float> d, Vec3<float> a, Vec3<float> b, Vec3<float> c) {
+  const Vec3<float> bc = cross(b, c);
+  const float volume = dot(a, bc);
+  const float u = dot(cross(a, b), d), v = dot(bc, d), w = dot(cross(c, a), d);
+  return volume > 0 ? std::min({u, v, w}) >= 0 : volume < 0 && std::max({u, v, w}) <= 0;
+}
+
+bool is_in_the_way(const Mesh& mesh, std::span<const Chunk> chunks, Vec3<float> from,
+                   Vec3<float> d) {
+  for (const Chunk& chunk : chunks) {
+    const Vec3<float> to = chunk.centre - from;
+    const float along = dot(to, d), reach = 1.001F * chunk.radius;
+    if (along < -reach || dot(to, to) - along * along > reach * reach) continue;
+    for (std::size_t t = chunk.begin; t < chunk.end; ++t) {
+      const auto& [i, j, k] = mesh.triangles[t];
+      if (meets(d, mesh.positions[i] - from, mesh.positions[j] - from, mesh.positions[k] - from))
+        return true;
+    }
+  }
+  return false;
+}
+
+bool is_in_the_way(const Sphere& sphere, Vec3<float> from, Vec3<float> d) {
+  const Vec3<float> to = Vec3<float>(sphere.centre) - from;
+  const float along = dot(to, d), off = dot(to, to) - float(sphere.radius * sphere.radius);
+  return off < 0 || (along > 0 && along * along > off);
 }
 
 }  // namespace
@@ -153,18 +241,42 @@ double Panorama::free_way(Vec3<double> toward) const {
 
 std::vector<Panorama> look_around(const std::vector<Object>& objects,
                                   const std::vector<Vec3<double>>& points) {
+  const auto chunks = chunks_of(objects);
   std::vector<Panorama> result(points.size());
   tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t p) {
     Nearness nearest{};
-    for (const Object& object : objects)
-      if (object.material.is_opaque())
-        std::visit([&](const auto& g) { see(g, Vec3<float>(points[p]), nearest); },
-                   object.geometry);
+    const Vec3<float> from(points[p]);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (!objects[i].material.is_opaque()) continue;
+      if (const auto* mesh = std::get_if<Mesh>(&objects[i].geometry))
+        see(*mesh, chunks[i], from, nearest);
+      else
+        see(std::get<Sphere>(objects[i].geometry), from, nearest);
+    }
     result[p].from = points[p];
     for (std::size_t i = 0; i < n; ++i) {
       result[p].distance[i] = nearest[i] != 0 ? 1 / std::abs(nearest[i]) : float(far_away);
       result[p].front[i] = nearest[i] > 0;
     }
+  });
+  return result;
+}
+
+std::vector<std::uint8_t> see_the_sky(const std::vector<Object>& objects,
+                                      const std::vector<Sight>& sights) {
+  const auto chunks = chunks_of(objects);
+  std::vector<std::uint8_t> result(sights.size());
+  tbb::parallel_for(std::size_t(0), sights.size(), [&](std::size_t s) {
+    const Vec3<float> from(sights[s].from), toward(sights[s].toward);
+    bool is_free = true;
+    for (std::size_t i = 0; i < objects.size() && is_free; ++i) {
+      if (!objects[i].material.is_opaque()) continue;
+      if (const auto* mesh = std::get_if<Mesh>(&objects[i].geometry))
+        is_free = !is_in_the_way(*mesh, chunks[i], from, toward);
+      else
+        is_free = !is_in_the_way(std::get<Sphere>(objects[i].geometry), from, toward);
+    }
+    result[s] = is_free;
   });
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include "scene/direction.h"
 #include "scene/look_around.h"
+#include "scene/room_view.h"
 
 namespace airlight {
 namespace {
@@ -35,83 +36,6 @@ std::string exact(Vec v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 /// For a sentence.
 std::string text(Vec v) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z); }
 
-Vec at(const Bounds& box, double x, double y, double z) {
-  const Vec size = box.size();
-  return box.min + Vec{size.x * x, size.y * y, size.z * z};
-}
-
-/// What encloses a point inside a room: between the 5th and the 95th percentile of what is seen, so
-/// that a view out of a window does not count.
-Bounds room_around(const Panorama& panorama, const Bounds& all) {
-  std::vector<double> x, y, z;
-  for (std::size_t i = 0; i < Panorama::directions; ++i) {
-    if (panorama.distance[i] >= float(far_away)) continue;
-    const Vec p = panorama.from + Panorama::direction(i) * double(panorama.distance[i]);
-    x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  }
-  const auto range = [](std::vector<double>& values, double& low, double& high) {
-    std::ranges::sort(values);
-    low = values[values.size() / 20];
-    high = values[values.size() - 1 - values.size() / 20];
-  };
-  Bounds room;
-  range(x, room.min.x, room.max.x);
-  range(y, room.min.y, room.max.y);
-  range(z, room.min.z, room.max.z);
-  const Vec margin = room.size() * 0.05;
-  room = {room.min - margin, room.max + margin};
-  const auto inside = [](double v, double low, double high) { return std::clamp(v, low, high); };
-  for (Vec* corner : {&room.min, &room.max})
-    *corner = {inside(corner->x, all.min.x, all.max.x), inside(corner->y, all.min.y, all.max.y),
-               inside(corner->z, all.min.z, all.max.z)};
-  // Floor and ceiling lie at steep angles, where few directions look.
-  const double near = 0.3 * room.size().y;
-  if (room.min.y - all.min.y < near) room.min.y = all.min.y;
-  if (all.max.y - room.max.y < near) room.max.y = all.max.y;
-  return room;
-}
-
-/// The direction in the sky that is seen from most points, low enough to come in obliquely.
-Sun sun_in_the_windows(const std::vector<Panorama>& panoramas) {
-  const double lowest = std::sin(15 * pi / 180), highest = std::sin(50 * pi / 180);
-  double most = 0;
-  Vec best = toward_sky(60, 35);
-  for (std::size_t i = 0; i < Panorama::directions; ++i) {
-    const Vec d = Panorama::direction(i);
-    if (d.y < lowest || d.y > highest) continue;
-    double seen = 0;
-    for (const Panorama& panorama : panoramas) seen += panorama.distance[i] >= float(far_away);
-    if (seen <= most) continue;
-    most = seen;
-    best = d;
-  }
-  return {std::atan2(best.x, -best.z) * 180 / pi, std::asin(best.y) * 180 / pi};
-}
-
-/// From one of eight places along the walls, with a free view across, against the light if
-/// possible.
-View inside_view(const Model& model, const Bounds& room) {
-  std::vector<Vec> places;
-  for (const double x : {0.1, 0.5, 0.9})
-    for (const double z : {0.1, 0.5, 0.9})
-      if (x != 0.5 || z != 0.5) places.push_back(at(room, x, 0.5, z));
-  const std::vector<Panorama> panoramas = look_around(model.objects, places);
-  View view{true, {}, sun_in_the_windows(panoramas), room};
-  const Vec sun = toward_sky(view.sun.azimuth, 0);
-  const Vec target = at(room, 0.5, 0.42, 0.5);
-  view.camera = {places[0], target, {0, 1, 0}, 55};
-  double best = -1;
-  for (const Panorama& panorama : panoramas) {
-    const Vec to = target - panorama.from;
-    const double against_light = 1 + 0.4 * dot(to, sun) / length(to);
-    const double score = panorama.free_way(to * 2.0) * against_light * (1 - panorama.inside_out());
-    if (score <= best) continue;
-    best = score;
-    view.camera.position = panorama.from;
-  }
-  return view;
-}
-
 /// From outside and above, the sun to the side: half of what stands there is lit, and its shadow in
 /// the fog is seen from the side.
 View outside_view(const Bounds& bounds) {
@@ -125,12 +49,19 @@ View outside_view(const Bounds& bounds) {
   return {false, camera, {70, 40}, {bounds.min - margin, bounds.max + margin}};
 }
 
+/// The direction towards the model's own sun.
+std::optional<Vec> sun_of(const Model& model) {
+  if (model.lights.empty()) return std::nullopt;
+  return std::visit([](const auto& light) { return light.toward(); }, model.lights[0]);
+}
+
 /// A room shows the front of its surfaces all around to someone in its middle.
 View view_of(const Model& model) {
   const Bounds bounds = bounds_of(model.objects);
   const Panorama middle = look_around(model.objects, {bounds.centre()})[0];
   if (middle.enclosed() < 0.7) return outside_view(bounds);
-  return inside_view(model, room_around(middle, bounds));
+  const RoomView inside = room_view(model.objects, middle, bounds, model.camera, sun_of(model));
+  return {true, inside.camera, {inside.azimuth, inside.elevation}, inside.room};
 }
 
 std::string camera_table(const Camera& camera) {
@@ -155,12 +86,12 @@ std::string sun_table(const View& view) {
       view.is_room ? "[22, 19, 15]" : "[8, 7, 5.6]", view.sun.azimuth, view.sun.elevation);
 }
 
-/// Fog that dims by about half across the box.
+/// Fog that dims by more than half across the box.
 std::string fog_table(const Bounds& box) {
   return fmt::format(
       "[[media]]\nalbedo = 0.97\nsigma_t = {:.3g}\nphase = {{type = \"henyey-greenstein\", g = "
       "0.4}}\nshape = {{type = \"box\", min = {}, max = {}}}\n",
-      0.8 / length(box.size()), exact(box.min), exact(box.max));
+      1.0 / length(box.size()), exact(box.min), exact(box.max));
 }
 
 }  // namespace
@@ -169,8 +100,10 @@ StandIn stand_in_for(const Model& model, const std::string& file) {
   const View view = view_of(model);
   StandIn result;
   // A bright sky for the windows of a room; behind a thing a dim one, before which lit fog shows.
-  result.toml = view.is_room ? "background = [0.9, 1.05, 1.3]\nambient = [0.2, 0.21, 0.24]\n"
+  result.toml = view.is_room ? "background = [0.9, 1.05, 1.3]\nambient = [0.1, 0.105, 0.12]\n"
                              : "background = [0.04, 0.05, 0.07]\nambient = [0.1, 0.11, 0.13]\n";
+  // Few shafts make much noise: more samples than where a scene file says how many.
+  result.toml += "[render]\nspp = 128\n";
   if (model.camera) {
     result.toml += camera_table(*model.camera);
   } else {
