@@ -52,7 +52,7 @@ View outside_view(const Bounds& bounds) {
 /// The direction towards the model's own sun.
 std::optional<Vec> sun_of(const Model& model) {
   if (model.lights.empty()) return std::nullopt;
-  return std::visit([](const auto& light) { return light.toward(); }, model.lights[0]);
+  return model.lights[0].toward();
 }
 
 /// A room shows the front of its surfaces all around to someone in its middle.
