@@ -15,9 +15,11 @@ namespace airlight {
 namespace {
 
 using nlohmann::json;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 const Mesh& mesh_of(const Model& model, std::size_t object = 0) {
   return std::get<Mesh>(model.objects.at(object).geometry);
@@ -162,6 +164,46 @@ TEST_F(Obj, is_grey_without_its_materials_and_says_so) {
   EXPECT_EQ(model.objects[0].material.albedo, Rgb<double>(0.5));
   EXPECT_THAT(model.remarks,
               ElementsAre("gone.mtl is missing", "surfaces without a material are grey"));
+}
+
+TEST_F(Obj, takes_the_numbers_of_materials_as_they_are_meant_or_says_what_is_wrong) {
+  const auto with_material = [&](const std::string& lines) {
+    write_text(scratch_ / "a.mtl", "newmtl m\n" + lines);
+    return "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+  };
+  const auto complaint_of = [&](const std::string& lines) {
+    return complaint("a.obj", with_material(lines));
+  };
+  EXPECT_EQ(complaint_of("Kd 0.1 nan 0.1\n"),
+            "a.mtl:2: \"Kd 0.1 nan 0.1\" lacks numbers; accepted: three finite numbers, or one for "
+            "all three");
+  EXPECT_THAT(complaint_of("illum 2\nKd 0.1 0.2\n"), StartsWith("a.mtl:3: \"Kd 0.1 0.2\" lacks"));
+  EXPECT_THAT(complaint_of("Kd spectral red.rfl 1\n"), StartsWith("a.mtl:2: \"Kd spectral"));
+  EXPECT_THAT(complaint_of("Tf 1 1\n"), StartsWith("a.mtl:2: "));
+  EXPECT_EQ(complaint_of("d inf\n"),
+            "a.mtl:2: \"d inf\" lacks numbers; accepted: one finite number");
+  EXPECT_THAT(complaint_of("Tr\n"), StartsWith("a.mtl:2: \"Tr\" lacks"));
+
+  const auto material_of = [&](const std::string& lines, const std::string& remark) {
+    const Model model = load("a.obj", with_material(lines));
+    EXPECT_EQ(model.remarks.size(), remark.empty() ? 0U : 1U);
+    if (!remark.empty()) {
+      EXPECT_THAT(model.remarks.at(0), HasSubstr(remark));
+    }
+    return model.objects.at(0).material;
+  };
+  EXPECT_EQ(material_of("Kd 0.25\n", "").albedo, Rgb<double>(0.25));
+  EXPECT_EQ(material_of("\tKd  +.5  5e-1 0.5 # grey\nd 0.5\n", "").albedo, Rgb<double>(0.5));
+  EXPECT_EQ(material_of("d 7\n", "a.mtl:2: \"d 7\" leaves [0, 1]").opacity, 1);
+  EXPECT_EQ(material_of("Kd 2 -1 1\nd -1\n", "(2 such lines in all)").albedo, Rgb<double>(1, 0, 1));
+}
+
+TEST_F(Obj, tells_of_faces_that_are_left_out) {
+  const Model model = load("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf 3\n");
+  EXPECT_EQ(mesh_of(model, 0).triangles.size(), 1U);
+  EXPECT_THAT(model.remarks,
+              Contains(HasSubstr("a.obj:4: \"f 1 2\" has less than three vertices and "
+                                 "is left out (2 such faces in all)")));
 }
 
 TEST_F(Obj, says_what_is_broken_and_where) {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "error.h"
 #include "image/read_file.h"
 #include "scene/models/decode_together.h"
+#include "scene/models/mtl_text.h"
 #include "scene/models/transparent_texels.h"
 
 namespace airlight {
@@ -19,36 +19,6 @@ namespace {
 std::string with_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;
-}
-
-bool is_number(const std::string& word) {
-  double x = 0;
-  const char* end = word.data() + word.size();
-  return !word.empty() && std::from_chars(word.data(), end, x).ptr == end;
-}
-
-/// Gives the options -o, -s and -t of textures all three numbers: the parser takes the file's name
-/// for a missing one.
-std::string complete_options(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, out;
-  while (std::getline(lines, line)) {
-    for (const char* option : {" -o ", " -s ", " -t "}) {
-      std::size_t end = line.find(option);
-      if (end == line.npos) continue;
-      end += 3;
-      int numbers = 0;
-      for (; numbers < 3; ++numbers) {
-        const std::size_t begin = std::min(line.find_first_not_of(' ', end), line.size());
-        const std::size_t stop = std::min(line.find(' ', begin), line.size());
-        if (!is_number(line.substr(begin, stop - begin))) break;
-        end = stop;
-      }
-      for (; numbers < 3; ++numbers) line.insert(end, option[2] == 's' ? " 1" : " 0");
-    }
-    out += line + '\n';
-  }
-  return out;
 }
 
 double fraction(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 1.0; }
@@ -147,10 +117,13 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
                            std::string* error) {
   const std::filesystem::path path = folder_ / with_slashes(name);
   if (!std::filesystem::is_regular_file(path)) {
-    missing_.push_back(name);
+    remarks_.push_back(fmt::format("{} is missing", name));
     return false;
   }
-  std::istringstream text(complete_options(read_text(path)));
+  const std::string content = read_text(path);
+  if (auto remark = check_mtl_numbers(content, path.string()))
+    remarks_.push_back(std::move(*remark));
+  std::istringstream text(complete_mtl_numbers(content));
   tinyobj::LoadMtl(indices, materials, &text, warning, error);
   return true;
 }

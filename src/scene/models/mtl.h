@@ -10,8 +10,8 @@
 
 namespace airlight {
 
-/// Reads the MTL files that an OBJ file beside them names; what is missing is remembered, not an
-/// error.
+/// Reads the MTL files that an OBJ file beside them names. One that is missing is no error but a
+/// remark; one without its numbers throws Error.
 class MtlReader : public tinyobj::MaterialReader {
  public:
   explicit MtlReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -20,11 +20,12 @@ class MtlReader : public tinyobj::MaterialReader {
                   std::map<std::string, int>* indices, std::string* warning,
                   std::string* error) override;
 
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// What is missing or out of range, a sentence each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   std::filesystem::path folder_;
-  std::vector<std::string> missing_;
+  std::vector<std::string> remarks_;
 };
 
 /// Turns materials as an MTL file describes them into ours, in the same order, and adds their

@@ -31,6 +31,7 @@ struct Parsed {
   tinyobj::attrib_t vertices;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
+  bool has_thin_faces = false;  ///< with less than three vertices, which the parser left out
 
   std::size_t positions() const { return vertices.vertices.size() / 3; }
   std::size_t normals() const { return vertices.normals.size() / 3; }
@@ -67,6 +68,7 @@ Parsed parse(std::string& text, const std::string& file, MtlReader& reader) {
     throw Error(fmt::format(
         "{}: a face, line or point has an index of nothing; indices count from 1", file));
   }
+  obj.has_thin_faces = warning.find("Degenerated face") != std::string::npos;
   return obj;
 }
 
@@ -162,9 +164,7 @@ std::vector<const tinyobj::material_t*> materials_of(const std::vector<Sorter::P
 
 std::vector<std::string> remarks_on(const std::vector<const tinyobj::material_t*>& materials,
                                     const MtlReader& reader) {
-  std::vector<std::string> remarks;
-  for (const std::string& name : reader.missing())
-    remarks.push_back(fmt::format("{} is missing", name));
+  std::vector<std::string> remarks = reader.remarks();
   std::vector<std::string> glowing;
   for (const auto* mtl : materials)
     if (mtl && (mtl->emission[0] > 0 || mtl->emission[1] > 0 || mtl->emission[2] > 0))
@@ -195,6 +195,7 @@ Model load_obj(const std::filesystem::path& path) {
                              std::move(parts[i].mesh), converted[i]});
   }
   model.remarks = remarks_on(materials, reader);
+  if (obj.has_thin_faces) model.remarks.push_back(remark_on_thin_faces(text, path.string()));
   return model;
 }
 

@@ -11,40 +11,10 @@
 #include <cstring>
 
 #include "error.h"
+#include "scene/models/text_lines.h"
 
 namespace airlight {
 namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-/// The text after leading blanks and up to the next end of line, which is taken away from `rest`.
-std::string_view next_line(std::string_view& rest) {
-  const std::size_t end = rest.find_first_of("\r\n");
-  std::string_view line = rest.substr(0, end);
-  const bool two = end != rest.npos && rest.substr(end, 2) == "\r\n";
-  rest.remove_prefix(end == rest.npos ? rest.size() : end + (two ? 2 : 1));
-  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-  return line;
-}
-
-std::string_view next_word(std::string_view& line) {
-  std::size_t begin = 0;
-  while (begin < line.size() && is_blank(line[begin])) ++begin;
-  std::size_t end = begin;
-  while (end < line.size() && !is_blank(line[end])) ++end;
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
-
-/// A line as an error shows it: its beginning, without bytes that a terminal would act on.
-std::string shown(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::string text(line.substr(0, 60));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 32) c = '?';
-  return line.size() > 60 ? text + "..." : text;
-}
 
 enum class Kind : std::uint8_t { blank, digit, number, word };
 
@@ -122,17 +92,6 @@ void check_finite(std::string_view words, const std::string& where, std::string_
   }
 }
 
-/// Calls `visit(key, words, line, where)` for each line; `where` makes "file:line" on demand.
-template <class Visit>
-void for_each_line(std::string_view text, const std::string& file, Visit&& visit) {
-  for (std::int64_t number = 1; !text.empty(); ++number) {
-    const std::string_view line = next_line(text);
-    std::string_view words = line;
-    const std::string_view key = next_word(words);
-    visit(key, words, line, [&] { return fmt::format("{}:{}", file, number); });
-  }
-}
-
 }  // namespace
 
 void check_obj_numbers(std::string_view text, const std::string& file) {
@@ -163,12 +122,30 @@ void check_obj_numbers(std::string_view text, const std::string& file) {
 
 void explain_broken_obj(std::string_view text, const std::string& file) {
   Counts all, so_far;
-  for_each_line(text, file, [&](auto key, auto, auto, auto) { all.add(key); });
-  for_each_line(text, file, [&](auto key, auto words, auto line, auto where) {
+  for_each_line(text, [&](auto key, auto...) { all.add(key); });
+  for_each_line(text, [&](auto key, auto words, auto line, std::int64_t number) {
     so_far.add(key);
-    if (key == "f") check_face(words, all, so_far, where(), line);
-    if (key == "v") check_finite(words, where(), line);
+    if (key != "f" && key != "v") return;
+    const std::string where = fmt::format("{}:{}", file, number);
+    if (key == "f")
+      check_face(words, all, so_far, where, line);
+    else
+      check_finite(words, where, line);
   });
+}
+
+std::string remark_on_thin_faces(std::string_view text, const std::string& file) {
+  std::string first;
+  int count = 0;
+  for_each_line(text, [&](auto key, auto words, auto line, std::int64_t number) {
+    if (key != "f") return;
+    int corners = 0;
+    while (!next_word(words).empty()) ++corners;
+    if (corners < 3 && count++ == 0)
+      first = fmt::format("{}:{}: \"{}\" has less than three vertices and is left out", file,
+                          number, shown(line));
+  });
+  return count > 1 ? fmt::format("{} ({} such faces in all)", first, count) : first;
 }
 
 }  // namespace airlight

@@ -15,4 +15,7 @@ void check_obj_numbers(std::string_view text, const std::string& file);
 /// not finite in float.
 void explain_broken_obj(std::string_view text, const std::string& file);
 
+/// What to say of faces that have less than three vertices, which the parser drops.
+std::string remark_on_thin_faces(std::string_view text, const std::string& file);
+
 }  // namespace airlight
