@@ -120,14 +120,16 @@ LightSummary summary_of(const L& light, int index, const World& world,
                         const std::vector<Vec3<double>>& points) {
   LightSummary result{light.name, light.toward(), light.irradiance, light.angular_diameter, {}};
   if (points.empty()) return result;
-  std::size_t lit = 0;
+  std::size_t in_reach = 0, lit = 0;
   for (const Vec3<double>& p : points) {
     if (!light.contains(p)) continue;
+    ++in_reach;
     const Rgb<double> passes =
         world.transmit<double>(p, light.toward(), light.reach(p), index, true);
     lit += passes.r > 0 || passes.g > 0 || passes.b > 0;
   }
-  result.lit_part = double(lit) / double(points.size());
+  // A beam may pass between the points.
+  if (in_reach > 0) result.lit_part = double(lit) / double(points.size());
   return result;
 }
 
