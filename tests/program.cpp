@@ -261,6 +261,24 @@ TEST(Render, keeps_how_it_was_made_in_exr_and_png) {
   }
 }
 
+TEST(Render, warns_of_what_is_hardly_meant) {
+  const Desk desk;
+  const auto expect_warning = [&](std::vector<std::string> flags, const std::string& warning) {
+    const Outcome outcome = desk.render("a.png", flags);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err.find("warning: " + warning), 0) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    flags.push_back("--quiet");
+    EXPECT_EQ(desk.render("a.png", flags).err, "");
+  };
+  expect_warning({"-D", "media=[]", "-D", "objects=[]"}, "the scene is empty");
+  expect_warning({"-D", "media.0.sigma_t=30"}, "fog is opaque after 0.15 m");
+  expect_warning({"-D", "lights=[]"}, "no light");
+  expect_warning({"-D", "objects.0.radius=2", "-D", "camera.position=[0, 0, 0.1]", "-D",
+                  "objects.0.centre=[0, 0, 0]"},
+                 "no light reaches the fog");
+}
+
 TEST(Render, is_silent_when_asked) {
   const Desk desk;
   const Outcome outcome = desk.render("a.png", {"--quiet"});
@@ -411,6 +429,55 @@ TEST(Render, brightens_a_png_alone) {
   ASSERT_EQ(desk.render("b.png", {"-o", desk / "b.pfm", "--exposure", "-1.5"}).status, 0);
   EXPECT_EQ(bytes_of(desk / "a.pfm"), bytes_of(desk / "b.pfm"));
   EXPECT_NE(bytes_of(desk / "a.png"), bytes_of(desk / "b.png"));
+}
+
+// ---- compare
+
+Outcome compare(const Desk& desk, std::vector<std::string> flags) {
+  flags.insert(flags.begin(),
+               {"compare", desk.scene, "-o", desk / "report", "--estimators", "rm,rewv"});
+  return run(flags);
+}
+
+TEST(Compare, writes_a_page_and_numbers) {
+  const Desk desk;
+  const Outcome outcome =
+      compare(desk, {"--spp", "1,4", "--seeds", "2", "--reference-spp", "4096"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const std::string page = bytes_of(desk / "report/index.html");
+  EXPECT_THAT(page, HasSubstr("rewv at 4096 spp with seeds of its own, whose RMSE is about"));
+  EXPECT_THAT(page, HasSubstr("RMSE over samples"));
+  EXPECT_THAT(bytes_of(desk / "report/results.csv"), HasSubstr("rewv"));
+}
+
+TEST(Compare, plots_no_single_points) {
+  const Desk desk;
+  const Outcome outcome =
+      compare(desk, {"--equal-time", "0.01", "--seeds", "1", "--reference-spp", "4096"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(bytes_of(desk / "report/index.html"), Not(HasSubstr("RMSE over")));
+}
+
+TEST(Compare, warns_of_a_reference_as_noisy_as_what_it_judges) {
+  const Desk desk;
+  const Outcome outcome = compare(desk, {"--spp", "1,64", "--seeds", "1", "--reference-spp", "64"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, StartsWith("warning: the reference is too noisy to judge "));
+  EXPECT_THAT(outcome.err, HasSubstr("rewv at 64 spp"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("rm at 1 spp")));
+  EXPECT_THAT(bytes_of(desk / "report/index.html"), HasSubstr("too noisy to judge"));
+}
+
+TEST(Compare, refuses_what_it_would_not_heed_or_cannot_trust) {
+  const Desk desk;
+  ASSERT_EQ(desk.render("a.png", {"-o", desk / "a.exr"}).status, 0);
+  expect_one_line(compare(desk, {"--reference", desk / "a.png"}), 2,
+                  "a.png: is a picture for a screen, its light clipped at white or tone-mapped; "
+                  "accepted: .exr, .pfm or .hdr");
+  expect_one_line(compare(desk, {"--spp", "4", "--equal-time", "1"}), 2,
+                  "--spp 4: is not accepted beside --equal-time");
+  EXPECT_EQ(compare(desk, {"--reference", desk / "a.exr", "--spp", "1", "--seeds", "1"}).status, 0);
 }
 
 // ---- probe and info

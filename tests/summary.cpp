@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "render/render.h"
 #include "scene/load_scene.h"
 
 namespace airlight {
@@ -75,22 +76,45 @@ TEST(Summary, tells_how_much_of_the_fog_is_lit) {
   EXPECT_NEAR(half.lights.at(0).lit_part.value(), 0.5, 0.02);
 }
 
+TEST(Summary, remarks) {
+  const auto remarks = [](const std::vector<Override>& changes) {
+    return summary_with(changes).remarks;
+  };
+  EXPECT_THAT(remarks({}), ::testing::IsEmpty());
+  EXPECT_THAT(remarks({"camera.position=[0,0,5]"}),
+              Contains(HasSubstr("the camera is outside the fog, which begins 3 m ahead")));
+  EXPECT_THAT(remarks({"objects=[]"}), Contains(StartsWith("no objects")));
+  EXPECT_THAT(remarks({"ambient=1"}), Contains(StartsWith("ambient lights surfaces only")));
+}
+
+TEST(Summary, of_a_picture_warns_of_fog_without_light) {
+  const auto warnings = [](const std::vector<Override>& changes) {
+    Scene scene = parse_scene(room, "room", changes);
+    scene.resolution = {16, 9};
+    scene.render.spp = 1;
+    return warnings_after(scene, render(scene).film);
+  };
+  const std::string lid = "objects.0.min=[-2,1,-3]", to = "objects.0.max=[2,1.1,3]";
+  EXPECT_THAT(warnings({}), ::testing::IsEmpty());
+  EXPECT_THAT(warnings({lid, to}), Contains(StartsWith("no light reaches the fog")));
+  EXPECT_THAT(warnings({lid, to, "media.0.emission=1"}), ::testing::IsEmpty());
+  EXPECT_THAT(warnings({lid, to, "lights.0.irradiance=0"}), ::testing::IsEmpty())
+      << "which is told before";
+}
+
 TEST(Summary, warns) {
   const auto warnings = [](const std::vector<Override>& changes) {
     return summary_with(changes).warnings;
   };
   EXPECT_THAT(warnings({"media.0.sigma_s=15", "media.0.sigma_a=0"}),
               Contains(StartsWith("fog is opaque after 0.31 m")));
-  EXPECT_THAT(warnings({"camera.position=[0,0,5]"}),
-              Contains(HasSubstr("the camera is outside the fog, which begins 3 m ahead")));
   EXPECT_THAT(warnings({"camera.position=[0,0,5]", "camera.target=[0,0,9]"}),
               Contains(HasSubstr("does not look into it")));
   EXPECT_THAT(warnings({"lights=[]"}), Contains(StartsWith("no light")));
   EXPECT_THAT(warnings({"lights.0.irradiance=0"}), Contains(StartsWith("lights.0 is black")));
   EXPECT_THAT(warnings({"media=[]"}), Contains(StartsWith("no medium")));
-  EXPECT_THAT(warnings({"objects=[]"}), Contains(StartsWith("no objects")));
+  EXPECT_THAT(warnings({"media=[]", "objects=[]"}), Contains(StartsWith("the scene is empty")));
   EXPECT_THAT(warnings({"media.0.sigma_s=0"}), Contains(HasSubstr("scatters nothing")));
-  EXPECT_THAT(warnings({"ambient=1"}), Contains(StartsWith("ambient lights surfaces only")));
   EXPECT_THAT(warnings({"objects.0.min=[-2,1,-3]", "objects.0.max=[2,1.1,3]"}),
               Contains(StartsWith("lights.0 cannot enter")));
   EXPECT_THAT(warnings({"render.estimator=magic"}), Contains(HasSubstr("magic")));

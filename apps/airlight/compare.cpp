@@ -17,7 +17,7 @@ using airlight::Error;
 struct Flags {
   SceneFlags scene;
   std::string estimators = "rm,mcds,mcwvds,rees,reds,rewv";
-  std::string spp = "1,2,4,8,16,32,64";
+  std::optional<std::string> spp;  ///< 1 to 64 if neither this nor a time is given
   airlight::ComparisonSettings settings;
   std::filesystem::path folder;
   bool quiet = false;
@@ -41,21 +41,28 @@ int compare(Flags& flags) {
   if (flags.settings.estimators.empty())
     throw Error(
         "--estimators: names none; accepted: names with commas between, such as rm,mcwvds,rewv");
-  flags.settings.spp = whole_numbers(flags.spp, ',');
+  if (flags.spp && flags.settings.equal_time > 0)
+    throw Error(
+        fmt::format("--spp {}: is not accepted beside --equal-time, which finds the counts itself",
+                    *flags.spp));
+  const std::string spp = flags.spp.value_or("1,2,4,8,16,32,64");
+  flags.settings.spp = whole_numbers(spp, ',');
   if (flags.settings.spp.empty() || !std::ranges::all_of(flags.settings.spp, [](std::int64_t n) {
         return n >= 1 && n <= 1 << 24;
       }))
     throw Error(
         fmt::format("--spp {}: is no list of counts; accepted: whole numbers from 1 to 16777216 "
                     "with commas between",
-                    flags.spp));
+                    spp));
   std::ranges::sort(flags.settings.spp);
   const airlight::Scene scene = flags.scene.load();
-  if (!flags.quiet && !scene.assumptions.empty())
-    fmt::print(stderr, "assumed: {}\n", fmt::join(scene.assumptions, "; "));
+  if (!flags.quiet) SceneFlags::tell(scene);
   airlight::make_folder(flags.folder);
   const airlight::Comparison comparison = airlight::compare_estimators(scene, flags.settings);
   airlight::write_comparison(comparison, flags.scene.file().filename().string(), flags.folder);
+  if (const std::string warning = airlight::warning_of(comparison);
+      !flags.quiet && !warning.empty())
+    fmt::print(stderr, "warning: {}\n", warning);
   if (!flags.quiet)
     fmt::print("{}: {} rows\n", (flags.folder / "index.html").string(), comparison.rows.size());
   return 0;
@@ -71,9 +78,10 @@ Action set_up_compare(CLI::App& verb) {
   verb.add_option("--estimators", flags->estimators, "estimators with commas between")
       ->type_name("")
       ->capture_default_str();
-  verb.add_option("--spp", flags->spp, "sample counts with commas between")
-      ->type_name("")
-      ->capture_default_str();
+  verb.add_option("--spp", flags->spp,
+                  "sample counts with commas between; 1,2,4,8,16,32,64 if neither they nor a time "
+                  "are given")
+      ->type_name("");
   verb.add_option("--seeds", flags->settings.seeds, "independent runs of each, for the spread")
       ->type_name("")
       ->check(CLI::Range(1, 4096))

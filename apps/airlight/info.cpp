@@ -69,6 +69,7 @@ void print(const airlight::Scene& scene, const Summary& summary) {
              bytes(memory.total()), bytes(memory.geometry), bytes(memory.textures),
              bytes(memory.hierarchy), bytes(memory.film));
   for (const std::string& remark : scene.assumptions) fmt::print("remark     {}\n", remark);
+  for (const std::string& remark : summary.remarks) fmt::print("remark     {}\n", remark);
   for (const std::string& warning : summary.warnings) fmt::print("warning    {}\n", warning);
 }
 

@@ -8,6 +8,7 @@
 #include "numbers.h"
 #include "outputs.h"
 #include "progress_line.h"
+#include "render/summary.h"
 #include "render/version.h"
 #include "scene_flags.h"
 #include "verbs.h"
@@ -79,8 +80,7 @@ int render(Flags& flags) {
   const Scene scene = flags.scene.load();
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
-  if (!flags.quiet && !scene.assumptions.empty())
-    fmt::print(stderr, "{}\n", fmt::join(scene.assumptions, "; "));
+  if (!flags.quiet) SceneFlags::tell(scene);
 
   const Interrupt interrupt;
   ProgressLine line(!flags.quiet);
@@ -118,6 +118,8 @@ int render(Flags& flags) {
     fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
                done.rejected);
   if (!flags.quiet) {
+    for (const std::string& warning : airlight::warnings_after(scene, done.film))
+      fmt::print(stderr, "warning: {}\n", warning);
     const std::string of = done.complete ? "" : fmt::format(" of {}", scene.render.spp);
     fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", flags.outputs.names(),
                done.film.crop.width, done.film.crop.height, done.samples, of, done.seconds,

@@ -4,6 +4,7 @@
 #include "flags.h"
 #include "numbers.h"
 #include "render/prepare.h"
+#include "render/summary.h"
 #include "scene/load_scene.h"
 
 namespace {
@@ -75,4 +76,10 @@ airlight::Scene SceneFlags::load() const {
   airlight::Scene scene = airlight::load_scene(file_, changes);
   check_estimator(scene, changes);
   return scene;
+}
+
+void SceneFlags::tell(const airlight::Scene& scene) {
+  if (!scene.assumptions.empty()) fmt::print(stderr, "{}\n", fmt::join(scene.assumptions, "; "));
+  for (const std::string& warning : airlight::warnings_before(scene))
+    fmt::print(stderr, "warning: {}\n", warning);
 }

@@ -18,6 +18,9 @@ class SceneFlags {
   /// The scene with all changes made. Throws airlight::Error.
   airlight::Scene load() const;
 
+  /// Prints to stderr what was assumed for a scene and the warnings that need no ray.
+  static void tell(const airlight::Scene& scene);
+
   const std::filesystem::path& file() const { return file_; }
 
  private:

@@ -9,6 +9,12 @@ namespace {
 
 constexpr std::string_view exr_magic = "\x76\x2f\x31\x01";
 
+bool is_exr(const Encoded& encoded) { return encoded.starts_with(exr_magic); }
+bool is_pfm(const Encoded& encoded) {
+  return encoded.starts_with("PF") || encoded.starts_with("Pf");
+}
+bool is_hdr(const Encoded& encoded) { return encoded.starts_with("#?"); }
+
 Image linear(const Codes& codes) {
   Image image(codes.width, codes.height, 3);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -22,19 +28,26 @@ Image read_image(const std::filesystem::path& path, const std::string& layer) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string name = path.string();
   const Encoded encoded{bytes, name};
-  if (encoded.starts_with(exr_magic)) return decode_exr(encoded, layer);
+  if (is_exr(encoded)) return decode_exr(encoded, layer);
   if (!layer.empty()) fail_to_decode(encoded, "only EXR files have a layer \"" + layer + "\"");
-  if (encoded.starts_with("PF") || encoded.starts_with("Pf")) return decode_pfm(encoded);
+  if (is_pfm(encoded)) return decode_pfm(encoded);
   if (encoded.is_png()) return decode_png(encoded);
-  if (encoded.starts_with("#?")) return decode_hdr(encoded);
+  if (is_hdr(encoded)) return decode_hdr(encoded);
   return linear(decode_codes(encoded));
+}
+
+bool holds_radiance(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const std::string name = path.string();
+  const Encoded encoded{bytes, name};
+  return is_exr(encoded) || is_pfm(encoded) || is_hdr(encoded);
 }
 
 std::map<std::string, std::string> read_metadata(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string name = path.string();
   const Encoded encoded{bytes, name};
-  if (encoded.starts_with(exr_magic)) return exr_metadata(encoded);
+  if (is_exr(encoded)) return exr_metadata(encoded);
   if (encoded.is_png()) return png_metadata(encoded);
   return {};
 }

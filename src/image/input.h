@@ -17,6 +17,10 @@ namespace airlight {
 /// such a picture.
 Image read_image(const std::filesystem::path& path, const std::string& layer = "");
 
+/// Whether a file's content holds linear light without an end (EXR, PFM, HDR) rather than codes for
+/// a screen, which end at white.
+bool holds_radiance(const std::filesystem::path& path);
+
 /// The metadata of an EXR or PNG file as text, numbers in their shortest exact form; empty for
 /// other formats.
 std::map<std::string, std::string> read_metadata(const std::filesystem::path& path);

@@ -32,6 +32,13 @@ inline constexpr std::array<Metric, 5> metric_list{{
     {"MSE", "mean((a − b)²)", "(W/(m² sr))²", &Metrics::mse, false},
 }};
 
+/// Where a metric stands in the list.
+constexpr std::size_t index_of(double Metrics::*value) {
+  std::size_t i = 0;
+  while (metric_list[i].value != value) ++i;
+  return i;
+}
+
 /// Sums run in double; PSNR of equal images is +infinity. Throws Error if the sizes differ or a
 /// value is not finite.
 Metrics compare(const Image& image, const Image& reference);

@@ -166,32 +166,57 @@ void warn_of_medium(const Scene& scene, const MediumSummary& fog,
   else if (opaque_after < across / 2)
     warnings.push_back(fmt::format(
         "fog is opaque after {:.2g} m (1 % passes); it is {:.3g} m across", opaque_after, across));
-  if (!fog.enter)
-    warnings.push_back("the camera is outside the fog and does not look into it");
-  else if (!fog.camera_inside)
-    warnings.push_back(
-        fmt::format("the camera is outside the fog, which begins {:.3g} m ahead", *fog.enter));
+  if (!fog.enter) warnings.push_back("the camera is outside the fog and does not look into it");
   if (medium.sigma_s == Rgb<double>() && medium.emission == Rgb<double>())
     warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
-  if (scene.ambient != Rgb<double>())
-    warnings.push_back(
-        "ambient lights surfaces only: light of the sky that scatters in the fog is not part of "
-        "the model");
 }
 
-void warn_of_lights(const Scene& scene, const Summary& summary,
-                    std::vector<std::string>& warnings) {
-  if (scene.lights.empty()) warnings.push_back("no light: the fog stays dark");
-  for (std::size_t i = 0; i < summary.lights.size(); ++i) {
-    if (summary.lights[i].irradiance == Rgb<double>())
-      warnings.push_back(fmt::format("lights.{} is black", i));
-    if (summary.lights[i].lit_part == 0.)
-      warnings.push_back(fmt::format(
-          "lights.{} cannot enter: objects shadow all of the fog that the camera sees", i));
-  }
+/// Whether fog could be lit, if nothing were in the way.
+bool expects_light(const Scene& scene) {
+  return scene.medium && scene.medium->sigma_s != Rgb<double>() &&
+         std::ranges::any_of(scene.lights, [](const Lights& light) {
+           return std::visit([](const auto& l) { return l.irradiance != Rgb<double>(); }, light);
+         });
+}
+
+std::vector<std::string> remarks_on(const Scene& scene, const Summary& summary) {
+  std::vector<std::string> remarks;
+  if (summary.medium && summary.medium->enter && !summary.medium->camera_inside)
+    remarks.push_back(fmt::format("the camera is outside the fog, which begins {:.3g} m ahead",
+                                  *summary.medium->enter));
+  if (scene.medium && scene.ambient != Rgb<double>())
+    remarks.push_back(
+        "ambient lights surfaces only: light of the sky that scatters in the fog is not part of "
+        "the model");
+  if (scene.medium && scene.objects.empty())
+    remarks.push_back("no objects: nothing throws a shadow");
+  return remarks;
 }
 
 }  // namespace
+
+std::vector<std::string> warnings_before(const Scene& scene) {
+  std::vector<std::string> warnings;
+  if (scene.medium)
+    warn_of_medium(scene, summary_of(*scene.medium, scene.camera), warnings);
+  else if (scene.objects.empty())
+    warnings.push_back("the scene is empty: the picture shows the background only");
+  else
+    warnings.push_back("no medium: the picture shows surfaces only");
+  if (scene.medium && scene.lights.empty()) warnings.push_back("no light: the fog stays dark");
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (std::visit([](const auto& l) { return l.irradiance == Rgb<double>(); }, scene.lights[i]))
+      warnings.push_back(fmt::format("lights.{} is black", i));
+  return warnings;
+}
+
+std::vector<std::string> warnings_after(const Scene& scene, const Film& film) {
+  if (!expects_light(scene)) return {};
+  for (int group = 0; group < int(film.groups.size()); ++group)
+    for (const PixelSums& pixel : film.pixels(group))
+      if (mean_estimate(pixel).radiance() != Rgb<double>()) return {};
+  return {"no light reaches the fog in the picture: objects shadow all of it"};
+}
 
 Summary summarise(const Scene& scene) {
   Summary result;
@@ -201,18 +226,19 @@ Summary summarise(const Scene& scene) {
   if (scene.medium) {
     result.medium = summary_of(*scene.medium, scene.camera);
     points = points_in_view(scene, world);
-    warn_of_medium(scene, *result.medium, result.warnings);
-  } else {
-    result.warnings.push_back("no medium: the picture shows surfaces only");
   }
+  result.warnings = warnings_before(scene);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     std::visit(
         [&](const auto& light) {
           result.lights.push_back(summary_of(light, int(i), world, points));
         },
         scene.lights[i]);
-  warn_of_lights(scene, result, result.warnings);
-  if (scene.objects.empty()) result.warnings.push_back("no objects: nothing throws a shadow");
+  for (std::size_t i = 0; i < result.lights.size(); ++i)
+    if (result.lights[i].lit_part == 0.)
+      result.warnings.push_back(fmt::format(
+          "lights.{} cannot enter: objects shadow all of the fog that the camera sees", i));
+  result.remarks = remarks_on(scene, result);
   try {
     check_settings(scene, scene.render);
     result.memory.film = film_layout(scene, estimator_for(scene.render)).bytes_a_pixel() *

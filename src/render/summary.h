@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/bounds.h"
+#include "render/film.h"
 #include "scene/scene.h"
 
 namespace airlight {
@@ -47,10 +48,17 @@ struct Summary {
   std::optional<MediumSummary> medium;
   std::vector<LightSummary> lights;
   MemorySummary memory;
-  std::vector<std::string> warnings;  ///< what may surprise, a sentence each
+  std::vector<std::string> remarks;   ///< what is good to know, a sentence each
+  std::vector<std::string> warnings;  ///< what is hardly meant to be so, a sentence each
 };
 
 /// Looks at a scene; casts a few thousand rays into it.
 Summary summarise(const Scene& scene);
+
+/// The warnings that need no ray.
+std::vector<std::string> warnings_before(const Scene& scene);
+
+/// What a finished picture warns of: that no light reaches the fog in it.
+std::vector<std::string> warnings_after(const Scene& scene, const Film& film);
 
 }  // namespace airlight

@@ -52,15 +52,24 @@ Rendered whole(Rendered rendered, const RenderSettings& settings) {
   return rendered;
 }
 
+Image reference_of(const std::filesystem::path& file, Resolution resolution) {
+  if (!holds_radiance(file))
+    throw Error(fmt::format(
+        "--reference {}: is a picture for a screen, its light clipped at white or tone-mapped; "
+        "accepted: .exr, .pfm or .hdr",
+        file.string()));
+  Image image = read_image(file);
+  if (image.width != resolution.width || image.height != resolution.height)
+    throw Error(fmt::format("{}: is {} x {} pixels; accepted: a reference of the scene's {} x {}",
+                            file.string(), image.width, image.height, resolution.width,
+                            resolution.height));
+  return image;
+}
+
 void make_reference(const Scene& scene, const ComparisonSettings& settings, Renderer& renderer,
                     Comparison& comparison) {
   if (!settings.reference_file.empty()) {
-    comparison.reference = read_image(settings.reference_file);
-    const auto [width, height] = scene.resolution;
-    if (comparison.reference.width != width || comparison.reference.height != height)
-      throw Error(fmt::format("{}: is {} x {} pixels; accepted: a reference of the scene's {} x {}",
-                              settings.reference_file.string(), comparison.reference.width,
-                              comparison.reference.height, width, height));
+    comparison.reference = reference_of(settings.reference_file, scene.resolution);
     comparison.reference_source = "the picture " + settings.reference_file.filename().string();
     return;
   }
@@ -70,14 +79,24 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
     reference.estimator = "closed_form";
     reference.spp = 1;
     comparison.reference_source = "the exact closed form, without noise";
-  } else {
-    reference.estimator = "rewv";
-    reference.spp = settings.reference_spp > 0 ? settings.reference_spp : default_reference_spp;
-    reference.seed = reference_seed;
-    comparison.reference_source =
-        fmt::format("rewv at {} spp with a seed of its own", reference.spp);
+    comparison.reference = whole(renderer.render(reference), reference).film.layer("beauty");
+    return;
   }
-  comparison.reference = whole(renderer.render(reference), reference).film.layer("beauty");
+  // Two halves with seeds of their own: what they differ by tells the error of both together.
+  const std::int64_t spp =
+      settings.reference_spp > 0 ? settings.reference_spp : default_reference_spp;
+  reference.estimator = "rewv";
+  reference.spp = (spp + 1) / 2;
+  reference.seed = reference_seed;
+  Film film = whole(renderer.render(reference), reference).film;
+  ++reference.seed;
+  const Film other = whole(renderer.render(reference), reference).film;
+  comparison.reference_error = compare(film.layer("beauty"), other.layer("beauty")).rmse / 2;
+  film.merge(other);
+  comparison.reference = film.layer("beauty");
+  comparison.reference_source =
+      fmt::format("rewv at {} spp with seeds of its own, whose RMSE is about {:.2g} W/(m² sr)",
+                  2 * reference.spp, comparison.reference_error);
 }
 
 /// The count that an estimator reaches in the given time, from the speed of runs that double until
@@ -118,6 +137,16 @@ Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const I
 
 }  // namespace
 
+std::string warning_of(const Comparison& comparison) {
+  std::string rows;
+  for (const Measured& row : comparison.rows)
+    if (comparison.reference_error > 0.5 * row.of(&Metrics::rmse).mean)
+      rows += fmt::format("{}{} at {} spp", rows.empty() ? "" : ", ", row.estimator, row.spp);
+  if (rows.empty()) return "";
+  return fmt::format("the reference is too noisy to judge {}; give it more with --reference-spp",
+                     rows);
+}
+
 Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings) {
   Renderer renderer(scene);
   for (const std::string& estimator : settings.estimators) {
@@ -130,15 +159,18 @@ Comparison compare_estimators(const Scene& scene, const ComparisonSettings& sett
 
   const std::vector<std::int64_t> counts =
       settings.equal_time > 0 ? std::vector<std::int64_t>{0} : settings.spp;
-  for (const std::string& estimator : settings.estimators)
+  for (const std::string& estimator : settings.estimators) {
+    RenderSettings one = scene.render;
+    one.estimator = estimator;
+    spread_rays(one);
+    one.spp = std::max<std::int64_t>(counts.front(), 1);
+    renderer.render(one);  // so that the first run that counts finds everything warm
     for (std::int64_t spp : counts) {
-      RenderSettings one = scene.render;
-      one.estimator = estimator;
-      spread_rays(one);
       one.spp = spp > 0 ? spp : samples_in(settings.equal_time, renderer, one);
       comparison.rows.push_back(
           measure(renderer, one, settings.seeds, comparison.reference, comparison));
     }
+  }
   return comparison;
 }
 

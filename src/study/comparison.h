@@ -28,14 +28,21 @@ struct Measured {
   Spread seconds;                                  ///< without loading  [s]
   std::array<Spread, metric_list.size()> metrics;  ///< in the order of `metric_list`
   Image picture;                                   ///< of the first seed
+
+  const Spread& of(double Metrics::*metric) const { return metrics[index_of(metric)]; }
 };
 
 struct Comparison {
   Image reference;
   std::string reference_source;  ///< in words
+  double reference_error = 0;    ///< its own RMSE, as far as it is known  [W/(m2 sr)]
   std::vector<Measured> rows;    ///< by estimator, then by spp
   const char* instruction_set = "";
 };
+
+/// The rows that the reference cannot judge, since its own error is more than half of theirs; empty
+/// if there are none.
+std::string warning_of(const Comparison& comparison);
 
 /// Renders every estimator at every count with every seed and measures its distance to the
 /// reference. Throws Error where an estimator can't serve the scene or the reference does not fit.

@@ -113,12 +113,17 @@ void write_comparison(const Comparison& comparison, const std::string& scene_nam
   const Table table = table_of(comparison);
   page.table(table);
 
-  page.heading("Convergence");
-  const std::size_t rmse = 0, psnr = 2;
-  page.figure({convergence_plot(comparison, rmse, false),
-               "Error over samples. A slope of −1/2 is that of independent samples."});
-  page.figure({convergence_plot(comparison, rmse, true), "Error over time."});
-  page.figure({convergence_plot(comparison, psnr, false), "The same in decibels."});
+  if (const std::string warning = warning_of(comparison); !warning.empty())
+    page.paragraph("Warning: " + warning + ".");
+
+  if (comparison.rows.size() > estimators_of(comparison).size()) {  // not a point each
+    page.heading("Convergence");
+    constexpr std::size_t rmse = index_of(&Metrics::rmse), psnr = index_of(&Metrics::psnr);
+    page.figure({convergence_plot(comparison, rmse, false),
+                 "Error over samples. A slope of −1/2 is that of independent samples."});
+    page.figure({convergence_plot(comparison, rmse, true), "Error over time."});
+    page.figure({convergence_plot(comparison, psnr, false), "The same in decibels."});
+  }
 
   page.heading("Pictures");
   std::vector<Figure> figures = {{written_png(comparison.reference, pictures / "reference.png"),

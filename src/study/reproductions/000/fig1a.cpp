@@ -114,7 +114,7 @@ void fig1a(Reproduced& out) {
       parse_scene(room, "000/fig1a"), {.estimators = estimators, .spp = {4}, .seeds = seeds});
   const auto rmse = [&](const std::string& estimator) {
     for (const Measured& m : comparison.rows)
-      if (m.estimator == estimator) return m.metrics[0].mean;
+      if (m.estimator == estimator) return m.of(&Metrics::rmse).mean;
     return 0.;
   };
   out.rows = {
@@ -142,13 +142,14 @@ void fig1a(Reproduced& out) {
                                         seeds));
   Table table{.caption =
                   fmt::format("All estimators at 4 spp, against {}.", comparison.reference_source)};
-  table.columns = {{.name = "estimator"},
-                   {.name = "RMSE", .unit = metric_list[0].unit, .best = Best::lowest},
-                   {.name = "PSNR", .unit = "dB", .best = Best::highest}};
+  table.columns = {
+      {.name = "estimator"},
+      {.name = "RMSE", .unit = metric_list[index_of(&Metrics::rmse)].unit, .best = Best::lowest},
+      {.name = "PSNR", .unit = "dB", .best = Best::highest}};
   std::vector<Figure> pictures = {
       out.picture("reference", comparison.reference, comparison.reference_source)};
   for (const Measured& m : comparison.rows) {
-    const Spread &error = m.metrics[0], &psnr = m.metrics[2];
+    const Spread &error = m.of(&Metrics::rmse), &psnr = m.of(&Metrics::psnr);
     table.rows.push_back({upper_case(m.estimator),
                           {error.mean, error.standard_deviation},
                           {psnr.mean, psnr.standard_deviation}});

@@ -13,12 +13,7 @@ void fig4(Reproduced& out) {
   sample_along({"One trapezoid", {-0.3, -0.2, -0.8}, {-0.1, 0.05, 1}, {0.5, 0.3, 0.7}, 2.5, 1},
                out);
   sample_in_picture(empty_box({-0.4, -0.3, -0.9}, 80, {0.5, 0.3, 0.7}, 2), out);
-  out.page.checks(
-      out.rows,
-      "The paper shows the agreement and prints no numbers. All counts are of 256 bins. A p "
-      "below 0.0001 would mean that the samples do not follow the density. The ends of a "
-      "bin cut two strata at most, so no count of stratified samples can be off by "
-      "more than 2.");
+  show_checks(out);
 }
 
 }  // namespace airlight::paper_000

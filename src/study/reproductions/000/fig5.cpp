@@ -13,12 +13,7 @@ void fig5(Reproduced& out) {
       {"Three trapezoids", {0.76, 0.53, -0.21}, {-0.54, 0.15, 0.812}, {0.6, 0.5, 0.6245}, 2, 3},
       out);
   sample_in_picture(empty_box({1.2, -1.6, -3}, 36, {0.6, 0.5, 0.6245}, 1.2), out);
-  out.page.checks(
-      out.rows,
-      "The paper shows the agreement and prints no numbers. All counts are of 256 bins. A p "
-      "below 0.0001 would mean that the samples do not follow the density. The ends of a "
-      "bin cut two strata at most, so no count of stratified samples can be off by "
-      "more than 2.");
+  show_checks(out);
 }
 
 }  // namespace airlight::paper_000

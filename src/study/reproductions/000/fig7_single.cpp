@@ -11,8 +11,6 @@ namespace airlight::paper_000 {
 namespace {
 
 constexpr int seeds = 2;
-constexpr std::size_t psnr = 2;  // of metric_list
-static_assert(std::string_view(metric_list[psnr].name) == "PSNR");
 
 /// PSNR in the order of `five_estimators`, with configurations A and B.
 struct Expected {
@@ -58,9 +56,9 @@ std::string plots(const Configuration& configuration, const Asymptotes& tend_to,
       if (m.estimator != five_estimators[i]) continue;
       const double n = double(m.spp), first = limit(tend_to.whole_volume, n);
       line.x.push_back(n);
-      line.y.push_back(m.metrics[psnr].mean);
+      line.y.push_back(m.of(&Metrics::psnr).mean);
       difference.x.push_back(n);
-      difference.y.push_back(m.metrics[psnr].mean - first);
+      difference.y.push_back(m.of(&Metrics::psnr).mean - first);
     }
     values.marks.push_back(line);
     apart.marks.push_back(difference);
@@ -94,7 +92,7 @@ void fig7_single(Reproduced& out) {
         out.rows.push_back({fmt::format("{}, {} spp, {}: PSNR [dB]", configuration.name, e.spp,
                                         upper_case(five_estimators[i])),
                             {},
-                            find(comparison, five_estimators[i], e.spp).metrics[psnr].mean,
+                            find(comparison, five_estimators[i], e.spp).of(&Metrics::psnr).mean,
                             value - tolerance,
                             value + tolerance});
       }
@@ -103,7 +101,7 @@ void fig7_single(Reproduced& out) {
       out.rows.push_back({fmt::format("{}, 256 spp, {}: PSNR − limit [dB]", configuration.name,
                                       upper_case(estimator)),
                           {},
-                          find(comparison, estimator, 256).metrics[psnr].mean -
+                          find(comparison, estimator, 256).of(&Metrics::psnr).mean -
                               limit(mse_times_squared_count, 256),
                           -limit_tolerance,
                           limit_tolerance});

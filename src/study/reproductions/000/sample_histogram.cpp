@@ -185,4 +185,13 @@ void sample_in_picture(const Scene& scene, Reproduced& out) {
       "more even than chance would.)");
 }
 
+void show_checks(Reproduced& out) {
+  out.page.checks(
+      out.rows,
+      "The paper shows the agreement and prints no numbers. All counts are of 256 bins. A p "
+      "below 0.0001 would mean that the samples do not follow the density. The ends of a "
+      "bin cut two strata at most, so no count of stratified samples can be off by "
+      "more than 2.");
+}
+
 }  // namespace airlight::paper_000

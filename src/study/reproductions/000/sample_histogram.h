@@ -26,4 +26,7 @@ Scene empty_box(Vec3<double> camera, double fov, Vec3<double> toward, double sig
 /// plot, a picture of the number of trapezoids, and a row.
 void sample_in_picture(const Scene& scene, Reproduced& out);
 
+/// Ends the page with the rows of both and what they mean.
+void show_checks(Reproduced& out);
+
 }  // namespace airlight::paper_000
