@@ -260,7 +260,7 @@ TEST(BeamsInScenes, with_an_image_give_what_quadrature_gives) {
       EXPECT_LT(std::abs(test::z_score(means[std::size_t(k)], truth[k], 1e-6 * truth[k])), 4)
           << estimator;
     }
-    EXPECT_NEAR(test::mean(means[2]), 0, 1e-4 * truth.r);  // of differences
+    EXPECT_NEAR(mean(means[2]), 0, 1e-4 * truth.r);  // of differences
   }
   scene.render.estimator = "rewv";  // a quotient, pooled: its bias is below 1e-4 at this count
   scene.render.spp = 1 << 16;

@@ -124,7 +124,7 @@ struct Sampled {
             Rgb<F> visible = world.transmit(from, to_light, reach, light_index, ray.active);
             if (ray.filtered)
               visible *= world.transmit(ray.origin, ray.direction, along, no_light, ray.active);
-            watch(WatchedSample<F>{i, along, placed.pdf(t, length), weight, visible});
+            watch(WatchedSample<F>{i, along, placed.pdf(t, length), weight * ray.dimmed, visible});
             const int half = half_of(halve_by_ray ? ray.index : i);
             occluded[half] += weight * visible;
             unoccluded[half] += select(ray.active, weight, Rgb<F>());
