@@ -26,6 +26,7 @@ set(public_headers
   render/probe.h
   render/render.h
   render/version.h
+  render/zeroed_memory.h
 )
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH room)

@@ -17,7 +17,7 @@ Point point_of(const SurfaceFilter& surface, RTCHitN* hit, unsigned n, unsigned 
   const std::uint32_t primitive = RTCHitN_primID(hit, n, i);
   if (!surface.on_sphere()) return {primitive, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i)};
   const auto [u, v] =
-      sphere_coordinates(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
+      sphere_point(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
   return {primitive, u, v};
 }
 

@@ -105,8 +105,8 @@ Hit<F> EmbreeSurfaces::closest(Vec3<F> origin, Vec3<F> dir, F t_min,
       const std::size_t n = std::size_t(i);
       if (hit.object[n] == Hit<F>::nothing || !is_sphere(hit.object[n])) continue;
       const auto [u, v] =
-          sphere_coordinates(first_lane(packet.hit.Ng_x)[i], first_lane(packet.hit.Ng_y)[i],
-                             first_lane(packet.hit.Ng_z)[i]);
+          sphere_point(first_lane(packet.hit.Ng_x)[i], first_lane(packet.hit.Ng_y)[i],
+                       first_lane(packet.hit.Ng_z)[i]);
       hit.u[n] = u;
       hit.v[n] = v;
     }

@@ -58,8 +58,8 @@ class ExactSurfaces {
     /// Where on the object, as Embree and SurfaceFilter say it.
     std::array<float, 2> point(int i) const noexcept {
       if (!on_sphere) return {float(lane(u, i)), float(lane(v, i))};
-      return sphere_coordinates(float(lane(normal.x, i)), float(lane(normal.y, i)),
-                                float(lane(normal.z, i)));
+      return sphere_point(float(lane(normal.x, i)), float(lane(normal.y, i)),
+                          float(lane(normal.z, i)));
     }
   };
 

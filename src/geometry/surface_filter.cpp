@@ -35,10 +35,21 @@ float SurfaceFilter::opacity(std::uint32_t primitive, float u, float v) const no
   return float(cut(object_->material.opacity * double(texture_->sample(s, t)[channel_])));
 }
 
+namespace {
+
+/// Of a unit normal, both in [0, 1]: u = 0 faces +x, u = 1/4 faces −z, v = 1 is the pole +y.
+std::array<float, 2> longitude_and_latitude(Vec3<float> n) noexcept {
+  const float turn = std::atan2(-n.z, n.x) * float(0.5 / pi);
+  return {turn < 0 ? turn + 1 : turn,
+          0.5f + std::atan2(n.y, std::sqrt(n.x * n.x + n.z * n.z)) * float(1 / pi)};
+}
+
+}  // namespace
+
 std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t primitive, float u,
                                          float v) noexcept {
   const auto* mesh = std::get_if<Mesh>(&object.geometry);
-  if (mesh == nullptr) return {u, v};
+  if (mesh == nullptr) return longitude_and_latitude(sphere_normal(u, v));
   if (mesh->uvs.empty()) return {0, 0};
   const auto& triangle = mesh->triangles[primitive];
   const auto &a = mesh->uvs[triangle[0]], &b = mesh->uvs[triangle[1]], &c = mesh->uvs[triangle[2]];
@@ -46,16 +57,18 @@ std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t pri
   return {w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]};
 }
 
-std::array<float, 2> sphere_coordinates(float x, float y, float z) noexcept {
-  const float turn = std::atan2(-z, x) * float(0.5 / pi);
-  return {turn < 0 ? turn + 1 : turn,
-          0.5f + std::atan2(y, std::sqrt(x * x + z * z)) * float(1 / pi)};
+std::array<float, 2> sphere_point(float x, float y, float z) noexcept {
+  const float scale = 1 / (std::abs(x) + std::abs(y) + std::abs(z));
+  const float u = x * scale, v = y * scale;
+  if (z >= 0) return {u, v};
+  return {std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v)};
 }
 
 Vec3<float> sphere_normal(float u, float v) noexcept {
-  const float longitude = u * float(2 * pi), latitude = (v - 0.5f) * float(pi);
-  const float ring = std::cos(latitude);
-  return {ring * std::cos(longitude), std::sin(latitude), -ring * std::sin(longitude)};
+  const float z = 1 - std::abs(u) - std::abs(v);
+  if (z >= 0) return normalize(Vec3<float>(u, v, z));
+  return normalize(
+      Vec3<float>(std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z));
 }
 
 }  // namespace airlight

@@ -12,7 +12,7 @@ struct Texture;
 
 /// What an object lets through, point by point. A point is named as Embree names it: a primitive
 /// and two coordinates, on a triangle the barycentric weights of its second and third corner, on a
-/// sphere those of `sphere_coordinates`. Keeps pointers to the scene's object and texture.
+/// sphere those of `sphere_point`. Keeps pointers to the scene's object and texture.
 class SurfaceFilter {
  public:
   SurfaceFilter(const Scene& scene, const Object& object);
@@ -53,17 +53,18 @@ class SurfaceFilter {
   bool tint_is_white_;
 };
 
-/// Where on an object's textures a point lies: u to the right, v up. (0, 0) for a mesh without such
-/// coordinates.
+/// Where on an object's textures a point lies: u to the right, v up; on a sphere longitude and
+/// latitude. (0, 0) for a mesh without such coordinates.
 std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t primitive, float u,
                                          float v) noexcept;
 
-/// Longitude and latitude of a sphere's outward normal (x, y, z), which need not be unit, both in
-/// [0, 1]: u = 0 faces +x, u = 1/4 faces −z, v = 1 is the pole +y. Plain numbers, because objects
-/// of every instruction set call it, in which the core's types have different names.
-std::array<float, 2> sphere_coordinates(float x, float y, float z) noexcept;
+/// Where on a sphere the outward normal (x, y, z), which need not be unit, points: its place on the
+/// octahedron |x| + |y| + |z| = 1, the lower half folded out, in [-1, 1]². Cheap both ways, as
+/// every ray that meets a sphere asks. Plain numbers, because objects of every instruction set call
+/// it, in which the core's types have different names.
+std::array<float, 2> sphere_point(float x, float y, float z) noexcept;
 
-/// The unit normal that `sphere_coordinates` came from.
+/// The unit normal that `sphere_point` came from.
 Vec3<float> sphere_normal(float u, float v) noexcept;
 
 }  // namespace airlight

@@ -2,14 +2,13 @@
 #include <airlight/estimator.h>
 
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <ranges>
 #include <string>
 #include <vector>
 
 #include "image/picture.h"
 #include "render/film_layout.h"
+#include "render/zeroed_memory.h"
 #include "scene/scene.h"
 
 namespace airlight {
@@ -35,24 +34,6 @@ Estimate<double> mean_estimate(const PixelSums& pixel);
 /// A rectangle of pixels.
 struct PixelRect {
   int x0 = 0, y0 = 0, width = 0, height = 0;
-};
-
-/// Memory that the system hands out zeroed when it is first touched: by the worker that renders
-/// there, not by the one that asks for it.
-template <class T>
-struct ZeroedMemory {
-  using value_type = T;
-
-  T* allocate(std::size_t count) {
-    void* memory = std::calloc(count, sizeof(T));
-    if (!memory) throw std::bad_alloc();
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
-  void construct(T*) noexcept {}  // it is zero
-  void construct(T* place, T value) noexcept { *place = value; }
-
-  friend bool operator==(const ZeroedMemory&, const ZeroedMemory&) noexcept { return true; }
 };
 
 /// The sums of a picture or of a crop of it. Sums of disjoint sample ranges of the same seed can be

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "../estimator.h"
 #include "../forms.h"
 #include "../lit_part.h"
@@ -47,6 +49,20 @@ struct Sampled {
              "only";
     return nullptr;
   }
+
+  /// A sample before its shadow ray.
+  template <Real F>
+  struct Drawn {
+    F t, along;  ///< from the entry, and from the camera  [m]
+    F length;    ///< of the whole way  [m]
+    F reach;     ///< from the sample to where light begins  [m]
+    Rgb<F> weight;
+    Vec3<F> from, to_light;
+  };
+
+  /// Samples are drawn a few at a time: each is one long chain of dependent steps, and those of
+  /// several overlap in the processor.
+  static constexpr std::uint32_t drawn_ahead = 4;
 
   /// Where light comes from when the way out of a camera ray is found: a wide disc gives every ray
   /// a direction of its own.
@@ -99,36 +115,51 @@ struct Sampled {
     std::visit(
         [&](const Placement auto& place) {
           const auto placed = place.on(section, carried<F, channels>(medium, light, ray.dimmed));
-          for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
-            const F t = placed.sample(sampler.one(i, stream::distance(light_index)));
-            const F along = ray.t_enter + t;
-            const Vec3<F> from = ray.origin + ray.direction * along;
-            const F reach = light.reach(from);
-            const F length =
-                intersect_every_step
-                    ? t + min(space.clip(LocalRay<F>{section.ray(t), section.w}).t_exit, reach)
-                    : section.way.length_at(t);
-            Rgb<F> weight = to_rgb<F>(placed.weights(t, length));
-            Vec3<F> to_light = w;
-            if (disc && !wide) {
-              to_light = uniform_cap(centre, cap, sampler.two(i, stream::disc(light_index)));
-              const F own =
-                  t + space.distance_out(section.ray(t), space.outward(space.vector(to_light)));
-              const F phase = evaluate(medium.phase, dot(to_light, ray.direction));
-              // Its own e^{−σ length} over the density, in one step: where light glances off a face
-              // of dense fog, the weight of the centre underflows and the change from it overflows.
-              weight = to_rgb<F>(balanced_weights<F, channels>(section.transmittance(own),
-                                                               placed.pdf(t, length))) *
-                       (phase / toward_camera);
+          const Stream<F> distances = sampler.stream(stream::distance(light_index));
+          const Stream<F> discs = sampler.stream(stream::disc(light_index));
+          const auto draw = [&](std::uint32_t i) {
+            Drawn<F> d;
+            d.t = placed.sample(distances.one(i));
+            d.along = ray.t_enter + d.t;
+            d.from = ray.origin + ray.direction * d.along;
+            d.reach = light.reach(d.from);
+            d.length = intersect_every_step
+                           ? d.t + min(space.clip(LocalRay<F>{section.ray(d.t), section.w}).t_exit,
+                                       d.reach)
+                           : section.way.length_at(d.t);
+            d.to_light = w;
+            if (!disc || wide) {
+              d.weight = to_rgb<F>(placed.weights(d.t, d.length));
+              return d;
             }
-            Rgb<F> visible = world.transmit(from, to_light, reach, light_index, ray.active);
+            d.to_light = uniform_cap(centre, cap, discs.two(i));
+            const F own =
+                d.t + space.distance_out(section.ray(d.t), space.outward(space.vector(d.to_light)));
+            const F phase = evaluate(medium.phase, dot(d.to_light, ray.direction));
+            // Its own e^{−σ length} over the density, in one step: where light glances off a face
+            // of dense fog, the weight of the centre underflows and the change from it overflows.
+            d.weight = to_rgb<F>(balanced_weights<F, channels>(section.transmittance(own),
+                                                               placed.pdf(d.t, d.length))) *
+                       (phase / toward_camera);
+            return d;
+          };
+          const auto trace = [&](std::uint32_t i, const Drawn<F>& d) {
+            Rgb<F> visible = world.transmit(d.from, d.to_light, d.reach, light_index, ray.active);
             if (ray.filtered)
-              visible *= world.transmit(ray.origin, ray.direction, along, no_light, ray.active);
-            watch(WatchedSample<F>{i, along, placed.pdf(t, length), weight * ray.dimmed, visible});
+              visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, ray.active);
+            watch(WatchedSample<F>{i, d.along, placed.pdf(d.t, d.length), d.weight * ray.dimmed,
+                                   visible});
             const int half = half_of(halve_by_ray ? ray.index : i);
-            occluded[half] += weight * visible;
-            unoccluded[half] += select(ray.active, weight, Rgb<F>());
+            occluded[half] += d.weight * visible;
+            unoccluded[half] += select(ray.active, d.weight, Rgb<F>());
             ++count[half];
+          };
+          const std::uint32_t end = samples.first + samples.count;
+          for (std::uint32_t i = samples.first; i < end; i += drawn_ahead) {
+            const std::uint32_t n = std::min(drawn_ahead, end - i);
+            Drawn<F> drawn[drawn_ahead];
+            for (std::uint32_t k = 0; k < n; ++k) drawn[k] = draw(i + k);
+            for (std::uint32_t k = 0; k < n; ++k) trace(i + k, drawn[k]);
           }
         },
         placement);

@@ -55,35 +55,52 @@ constexpr U reversed_sobol_second(U index) noexcept {
   return index ^ ((index >> 16) & U(0x0000ffffu));
 }
 
+/// One of the sequences of a packet of pixels: what its seeds cost is paid once.
+template <Real F>
+class Stream {
+ public:
+  explicit Stream(UInt<F> hash) noexcept
+      : shuffle_(hash),
+        one_(mix_bits(hash)),
+        first_(mix_bits(hash ^ UInt<F>(0x9e3779b9u))),
+        second_(mix_bits(hash ^ UInt<F>(0x7f4a7c15u))) {}
+
+  /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
+  /// each interval of length 2^-k.
+  AIRLIGHT_INLINE F one(std::uint32_t index) const noexcept {
+    // reverse(index) is the van der Corput point; its scramble reverses it once more.
+    return scramble(UInt<F>(index), one_);
+  }
+
+  /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
+  AIRLIGHT_INLINE Vec2<F> two(std::uint32_t index) const noexcept {
+    const UInt<F> shuffled = owen_scramble(UInt<F>(index), shuffle_);
+    return {scramble(shuffled, first_), scramble(reversed_sobol_second(shuffled), second_)};
+  }
+
+ private:
+  AIRLIGHT_INLINE static F scramble(UInt<F> reversed, UInt<F> seed) noexcept {
+    return unit_interval<F>(reverse_bits(laine_karras(reversed, seed)));
+  }
+
+  UInt<F> shuffle_, one_, first_, second_;
+};
+
 /// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are
 /// independent.
 template <Real F>
 struct Sampler {
   UInt<F> pixel_hash;  ///< of (seed, pixel), a lane a pixel
 
-  /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
-  /// each interval of length 2^-k.
-  AIRLIGHT_INLINE F one(std::uint32_t index, std::uint32_t stream) const noexcept {
-    // reverse(index) is the van der Corput point; its scramble reverses it once more.
-    return unit_interval<F>(reverse_bits(laine_karras(UInt<F>(index), mix_bits(hash(stream)))));
+  /// The streams' hashes are mixed again before they scramble: the low bits, which decide the
+  /// stratum, of one mix of h ^ a and of h ^ b are not independent over h.
+  Stream<F> stream(std::uint32_t id) const noexcept {
+    return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))));
   }
 
-  /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
-  Vec2<F> two(std::uint32_t index, std::uint32_t stream) const noexcept {
-    const UInt<F> h = hash(stream);
-    const UInt<F> shuffled = owen_scramble(UInt<F>(index), h);
-    const auto scramble = [](UInt<F> reversed, UInt<F> seed) {
-      return unit_interval<F>(reverse_bits(laine_karras(reversed, mix_bits(seed))));
-    };
-    return {scramble(shuffled, h ^ UInt<F>(0x9e3779b9u)),
-            scramble(reversed_sobol_second(shuffled), h ^ UInt<F>(0x7f4a7c15u))};
-  }
-
- private:
-  /// What tells a stream from another. It is mixed again before it scrambles: the low bits, which
-  /// decide the stratum, of one mix of h ^ a and of h ^ b are not independent over h.
-  UInt<F> hash(std::uint32_t stream) const noexcept {
-    return mix_bits(pixel_hash ^ UInt<F>(mix_bits(stream)));
+  F one(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).one(index); }
+  Vec2<F> two(std::uint32_t index, std::uint32_t id) const noexcept {
+    return stream(id).two(index);
   }
 };
 
