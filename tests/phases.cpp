@@ -155,7 +155,8 @@ TYPED_TEST(EveryPhase, says_the_same_in_every_arithmetic) {
   }
   value.expect_below(6e-7);
   sample.expect_below(2e-7);
-  lane_value.expect_below(3e-7);
+  lane_value.expect_below(
+      6e-7);  // two roundings more where one of them multiplies and adds in one step
   lane_sample.expect_below(2e-7);
 }
 

@@ -194,7 +194,7 @@ TEST(WayOutOfABox, is_the_same_in_every_lane) {
     const double ratio = many[i].total / one[i].total * std::exp(one[i].depth - many[i].depth);
     worst.see(std::abs(ratio - 1) / (1 + depth), all[i]);
   }
-  worst.expect_below(5e-7);
+  worst.expect_below(3e-6);  // as far as float may be from double, where only one of them fuses
 }
 
 TEST(WayOutOfABox, forgets_faces_all_but_parallel_to_the_light) {
