@@ -5,8 +5,11 @@
 #include <random>
 
 #include "error.h"
+#include "image/decoders.h"
 #include "image/input.h"
 #include "image/output.h"
+#include "image/read_file.h"
+#include "image/srgb.h"
 #include "render/kernel.h"
 #include "render/render.h"
 #include "scene/described.h"
@@ -202,6 +205,93 @@ TEST_P(EveryArithmetic, a_holdout_shadows_the_fog_as_any_object_does) {
   const Image want = render(scene).layer("in_scatter");
   for (Object& object : scene.objects) object.holdout = true;
   EXPECT_EQ(render(scene).layer("in_scatter").pixels, want.pixels);
+}
+
+/// A row of pixels of the beauty, four numbers each, the last one alpha.
+Picture with_alpha(const Image& rgba) {
+  Picture picture;
+  picture.width = rgba.width, picture.height = rgba.height;
+  const auto channels = [&rgba](int first, int count) {
+    return [&rgba, first, count](int y, std::span<float> row) {
+      for (std::size_t i = 0; i < row.size(); ++i)
+        row[i] = rgba.at(int(i) / count, y, first + int(i) % count);
+    };
+  };
+  picture.layers = {{"beauty", {"R", "G", "B"}, channels(0, 3)}};
+  picture.alpha = {"alpha", {"A"}, channels(3, 1)};
+  return picture;
+}
+
+Codes codes_of(const std::string& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  return decode_codes({bytes, path});
+}
+
+TEST(Alpha, of_a_png_lays_light_over_a_photograph) {
+  const Folder folder;
+  // Opaque, half covered, light added to nearly all of the background, nothing at all.
+  Image pixels(4, 1, 4);
+  pixels.pixels = {0.2f, 0.5f, 1, 1, 0.1f, 0.2f, 0.3f, 0.5f, 0.4f, 0.2f, 0.1f, 0.05f, 0, 0, 0, 0};
+  write_png(folder / "layer.png", with_alpha(pixels));
+  const Codes codes = codes_of(folder / "layer.png");
+  for (int x = 0; x < 4; ++x) {
+    const std::uint8_t* code = &codes.rgba[std::size_t(4 * x)];
+    const float alpha = float(code[3]) / 255;
+    // Alpha is as it was, or as bright as the light that it must hold.
+    const float brightest = *std::max_element(&pixels.pixels[std::size_t(4 * x)],
+                                              &pixels.pixels[std::size_t(4 * x)] + 3);
+    EXPECT_NEAR(alpha, std::max(pixels.at(x, 0, 3), brightest), 1 / 255.f) << x;
+    for (int c = 0; c < 3; ++c) {
+      // Half a code of colour, 0.9 % of light at most, and its share of alpha.
+      EXPECT_NEAR(linear_of_srgb[code[c]] * alpha, pixels.at(x, 0, c), 0.005f * alpha + 1e-6f)
+          << x << ", " << c;
+    }
+  }
+}
+
+TEST(Alpha, covers_what_transmittance_leaves) {
+  const Folder folder;
+  test::write_bytes(folder / "scene.toml", R"(
+background = 3
+[camera]
+position = [0, 0, 4]
+[image]
+width = 40
+height = 30
+[render]
+spp = 16
+samples_per_ray = 2
+[[media]]
+sigma_s = [0.1, 0.2, 0.3]
+sigma_a = 0
+shape = {type = "box", min = [-1, -1, -1], max = [1, 1, 1]}
+[[lights]]
+type = "directional"
+irradiance = 3
+direction = [-1, -2, -0.5]
+[[objects]]
+type = "sphere"
+radius = 0.5
+)");
+  const auto outcome = test::run({"render", folder / "scene.toml", "--alpha", "--exr", "float",
+                                  "-o", folder / "layer.exr", "-o", folder / "layer.png"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Image alpha = read_numbers(folder / "layer.exr", "A");
+  const Image beauty = read_image(folder / "layer.exr"),
+              through = read_image(folder / "layer.exr", "transmittance"),
+              scattered = read_image(folder / "layer.exr", "in_scatter");
+  ASSERT_EQ(alpha.pixels.size(), 1200u);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const float mean = (through.at(x, y, 0) + through.at(x, y, 1) + through.at(x, y, 2)) / 3;
+      EXPECT_NEAR(alpha.at(x, y, 0), 1 - mean, 1e-6f);
+    }
+  EXPECT_EQ(alpha.at(20, 15, 0), 1);     // the ball
+  EXPECT_EQ(alpha.at(0, 0, 0), 0);       // beside the fog
+  EXPECT_EQ(beauty.at(0, 0, 0), 0);      // without the background
+  const float fog = alpha.at(20, 7, 0);  // 2.03 m of it
+  EXPECT_NEAR(fog, 1 - (std::exp(-0.203f) + std::exp(-0.406f) + std::exp(-0.61f)) / 3, 0.005f);
+  EXPECT_EQ(beauty.at(20, 7, 1), scattered.at(20, 7, 1));
 }
 
 TEST(Holdouts, are_objects_of_every_kind) {

@@ -36,6 +36,7 @@ struct Flags {
   Outputs outputs;
   std::vector<airlight::Override> schedule;
   std::string crop;
+  bool alpha = false;
   bool quiet = false;
 };
 
@@ -43,6 +44,8 @@ constexpr const char* examples = R"(Examples:
   airlight render scenes/sunroom.toml -o sunroom.png
   airlight render model.glb -o out.exr -o out.png --size 1280x720 --spp 64
   airlight render fog.toml -o fog.png -D lights.0.irradiance=3 --exposure -1 --tonemap filmic
+  airlight render fog.toml -o fog.png --background photo.jpg --size 1600x900
+  airlight render fog.toml -o layer.exr -o layer.png --alpha
   airlight render fog.toml -o fog.exr --spp 1024 --preview 2 --time-limit 60
 
 Ctrl-C ends a render and writes what is done (exit status 130); a second Ctrl-C ends it at once.
@@ -60,8 +63,10 @@ std::optional<PixelRect> crop_of(const std::string& text) {
 
 /// The film with how it came about.
 airlight::Picture picture_of(const airlight::Film& film, const airlight::RenderSettings& settings,
-                             const char* instruction_set, std::int64_t samples, double seconds) {
+                             bool alpha, const char* instruction_set, std::int64_t samples,
+                             double seconds) {
   airlight::Picture picture = film.picture();
+  if (alpha) add_alpha(picture);
   picture.metadata = {{"spp", samples},
                       {"samples_per_ray", settings.samples_per_ray},
                       {"first_sample", settings.first_sample.value_or(0)},
@@ -77,7 +82,8 @@ int render(Flags& flags) {
   flags.outputs.check();
   const auto schedule = read_flags<Schedule>(flags.schedule);
   const std::optional<PixelRect> crop = crop_of(flags.crop);
-  const Scene scene = flags.scene.load();
+  Scene scene = flags.scene.load();
+  if (flags.alpha) scene.background = {}, scene.background_image = {};
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
   if (!flags.quiet) SceneFlags::tell(scene);
@@ -100,8 +106,8 @@ int render(Flags& flags) {
                                      const airlight::Progress& progress) mutable {
       if (progress.seconds < next || progress.samples_done == progress.samples) return;
       try {
-        flags.outputs.write(picture_of(film, scene.render, instruction_set, progress.samples_done,
-                                       progress.seconds));
+        flags.outputs.write(picture_of(film, scene.render, flags.alpha, instruction_set,
+                                       progress.samples_done, progress.seconds));
       } catch (const Error& error) {  // the render goes on: its last picture may succeed
         line.clear();
         fmt::print(stderr, "{}\n", error.what());
@@ -112,8 +118,8 @@ int render(Flags& flags) {
 
   const Rendered done = renderer.render(scene.render, control);
   line.clear();
-  flags.outputs.write(
-      picture_of(done.film, scene.render, done.instruction_set, done.samples, done.seconds));
+  flags.outputs.write(picture_of(done.film, scene.render, flags.alpha, done.instruction_set,
+                                 done.samples, done.seconds));
   if (done.rejected > 0)
     fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
                done.rejected);
@@ -139,6 +145,10 @@ Action set_up_render(CLI::App& verb) {
       ->type_name("")
       ->group("Scene");
   add_flags<Schedule>(verb, "", "Output", flags->schedule);
+  verb.add_flag("--alpha", flags->alpha,
+                "leaves the background out and writes alpha: EXR with colours multiplied by it, "
+                "PNG for an image editor")
+      ->group("Output");
   verb.add_flag("--quiet", flags->quiet, "prints nothing but errors")->group("Output");
   return [flags] { return render(*flags); };
 }

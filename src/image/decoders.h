@@ -34,6 +34,11 @@ Image decode_pfm(const Encoded& encoded);
 Image decode_png(const Encoded& encoded);
 Image decode_hdr(const Encoded& encoded);  ///< Radiance
 
+/// Of one channel, without any colour space; as `read_numbers`.
+Image decode_exr_channel(const Encoded& encoded, const std::string& channel);
+Image decode_pfm_numbers(const Encoded& encoded);
+Image decode_png_numbers(const Encoded& encoded);
+
 std::map<std::string, std::string> exr_metadata(const Encoded& encoded);
 std::map<std::string, std::string> png_metadata(const Encoded& encoded);
 

@@ -34,7 +34,10 @@ void write_exr(const std::filesystem::path& path, const Picture& picture, ExrTyp
 /// Portable float map: the beauty in 32 bit, nothing else.
 void write_pfm(const std::filesystem::path& path, const Picture& picture);
 
-/// PNG: the beauty in 8 bit sRGB, metadata as text chunks.
+/// PNG: the beauty in 8 bit sRGB, metadata as text chunks. With alpha, colours are divided by it,
+/// as the format wants; where the beauty is brighter than alpha (light that a medium adds), alpha
+/// is raised to it, or the colour would not fit below 1. Over black, one sees the beauty either
+/// way.
 void write_png(const std::filesystem::path& path, const Picture& picture,
                const Display& display = {});
 

@@ -26,6 +26,20 @@ void fill_row(const Layer& layer, int y, std::span<float> row, const std::filesy
       layer.storage == Storage::id ? "whole numbers from 0 to 16777216" : "finite numbers"));
 }
 
+void add_alpha(Picture& picture) {
+  const auto found = std::ranges::find(picture.layers, "transmittance", &Layer::name);
+  if (found == picture.layers.end())
+    throw Error("a picture without the layer transmittance can have no alpha");
+  picture.alpha = {"alpha", {"A"}, [fill = found->fill](int y, std::span<float> row) {
+                     std::vector<float> passes(3 * row.size());
+                     fill(y, passes);
+                     for (std::size_t x = 0; x < row.size(); ++x) {
+                       const float* p = &passes[3 * x];
+                       row[x] = 1 - (p[0] + p[1] + p[2]) / 3;
+                     }
+                   }};
+}
+
 Picture picture_of(const Image& image) {
   Picture picture;
   picture.width = image.width;

@@ -42,8 +42,8 @@ struct Crop {
 
 using MetadataValue = std::variant<std::string, double, std::int64_t>;
 
-/// What gets written. The first layer is the beauty with channels R, G, B; PFM and PNG keep only
-/// this one.
+/// What gets written. The first layer is the beauty with channels R, G, B; PFM keeps only this one,
+/// PNG this and alpha.
 struct Picture {
   int width = 0;
   int height = 0;
@@ -51,11 +51,18 @@ struct Picture {
   std::vector<Layer> layers;
   std::vector<std::pair<std::string, MetadataValue>>
       metadata;  ///< such as {"spp", 64}; EXR and PNG keep it
+  /// The part of the background that is covered, by which the beauty is multiplied. EXR and PNG
+  /// keep it.
+  std::optional<Layer> alpha = {};
 };
 
 /// Asks the layer for row y of the picture that goes to `path`. Throws Error naming layer, channel
 /// and pixel for a value that is not finite, or no id where ids are kept.
 void fill_row(const Layer& layer, int y, std::span<float> row, const std::filesystem::path& path);
+
+/// Gives alpha to a picture whose beauty has no background in it: 1 − the mean over the channels of
+/// its layer "transmittance". In that layer, channels may differ; alpha is one number.
+void add_alpha(Picture& picture);
 
 /// One layer, "beauty", that reads an RGB image, which must outlive the picture.
 Picture picture_of(const Image& image);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 #include <stdexcept>
@@ -79,31 +80,56 @@ std::vector<std::string> channels_of(const Encoded& encoded, const Imf::ChannelL
   return in_layer;
 }
 
+/// The channel that holds a file's numbers.
+std::string channel_of(const Encoded& encoded, const Imf::ChannelList& channels,
+                       const std::string& wanted) {
+  std::vector<std::string> all;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+    all.emplace_back(channel.name());
+  if (wanted.empty() && all.size() == 1) return all.front();
+  const std::vector<std::string> candidates =
+      wanted.empty() ? std::vector<std::string>{"Z", "depth.Z"} : std::vector{wanted};
+  for (const std::string& candidate : candidates)
+    if (std::ranges::find(all, candidate) != all.end()) return candidate;
+  fail_to_decode(encoded, fmt::format("it has no channel {}; it has: {}",
+                                      fmt::join(candidates, " or "), fmt::join(all, ", ")));
+}
+
+Image read_channels(const Encoded& encoded, Imf::InputFile& file,
+                    const std::vector<std::string>& names) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
+  const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
+  check_size(encoded, width, height);
+
+  const Imf::ChannelList& channels = file.header().channels();
+  Image image(int(width), int(height), int(names.size()));
+  const std::size_t pixel_bytes = names.size() * sizeof(float);
+  const std::size_t row_bytes = std::size_t(width) * pixel_bytes;
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const Imf::Channel& channel = *channels.findChannel(names[c]);
+    if (channel.xSampling != 1 || channel.ySampling != 1)
+      fail_to_decode(encoded, fmt::format("channel {} has fewer samples than pixels", names[c]));
+    frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window,
+                                            pixel_bytes, row_bytes));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
 }  // namespace
 
 Image decode_exr(const Encoded& encoded, const std::string& layer) {
   return with_file(encoded, [&](Imf::InputFile& file) {
-    const Imath::Box2i window = file.header().dataWindow();
-    const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
-    const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
-    check_size(encoded, width, height);
+    return read_channels(encoded, file, channels_of(encoded, file.header().channels(), layer));
+  });
+}
 
-    const Imf::ChannelList& channels = file.header().channels();
-    const std::vector<std::string> names = channels_of(encoded, channels, layer);
-    Image image(int(width), int(height), int(names.size()));
-    const std::size_t pixel_bytes = names.size() * sizeof(float);
-    const std::size_t row_bytes = std::size_t(width) * pixel_bytes;
-    Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      const Imf::Channel& channel = *channels.findChannel(names[c]);
-      if (channel.xSampling != 1 || channel.ySampling != 1)
-        fail_to_decode(encoded, fmt::format("channel {} has fewer samples than pixels", names[c]));
-      frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window,
-                                              pixel_bytes, row_bytes));
-    }
-    file.setFrameBuffer(frame);
-    file.readPixels(window.min.y, window.max.y);
-    return image;
+Image decode_exr_channel(const Encoded& encoded, const std::string& channel) {
+  return with_file(encoded, [&](Imf::InputFile& file) {
+    return read_channels(encoded, file, {channel_of(encoded, file.header().channels(), channel)});
   });
 }
 

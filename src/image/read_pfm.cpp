@@ -60,4 +60,11 @@ Image decode_pfm(const Encoded& encoded) {
   return image;
 }
 
+Image decode_pfm_numbers(const Encoded& encoded) {
+  const Image three = decode_pfm(encoded);
+  Image image(three.width, three.height, 1);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = three.pixels[3 * i];
+  return image;
+}
+
 }  // namespace airlight

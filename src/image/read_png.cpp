@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -52,6 +53,16 @@ struct Decoder {
   bool read_info() {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_read_info(png, info);
+    return true;
+  }
+
+  /// Rows of 16 bit codes in the machine's order, of a grey picture; after `read_info`.
+  bool read_grey(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_expand_16(png);
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
+    png_set_interlace_handling(png);
+    png_read_image(png, rows);
     return true;
   }
 
@@ -115,6 +126,28 @@ Codes png_codes(const Encoded& encoded) {
   for (std::size_t y = 0; y < height; ++y) rows[y] = codes.rgba.data() + y * width * 4;
   if (!decoder.read_rgba(rows.data())) fail_to_decode(encoded, source.error);
   return codes;
+}
+
+Image decode_png_numbers(const Encoded& encoded) {
+  Source source{encoded.bytes, ""};
+  Decoder decoder(source);
+  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  if (png_get_color_type(decoder.png, decoder.info) != PNG_COLOR_TYPE_GRAY)
+    fail_to_decode(encoded, "it has colours; accepted: a grey PNG without alpha");
+  const auto width = png_get_image_width(decoder.png, decoder.info);
+  const auto height = png_get_image_height(decoder.png, decoder.info);
+  check_size(encoded, width, height);
+  std::vector<std::uint16_t> codes(std::size_t(width) * height);
+  std::vector<png_bytep> rows(height);
+  for (std::size_t y = 0; y < height; ++y)
+    rows[y] = reinterpret_cast<png_bytep>(codes.data() + y * width);
+  // Libpng spreads fewer bits over all 16.
+  const int bits = png_get_bit_depth(decoder.png, decoder.info);
+  if (!decoder.read_grey(rows.data())) fail_to_decode(encoded, source.error);
+  const int spread = 65535 / ((1 << bits) - 1);
+  Image image(int(width), int(height), 1);
+  for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i] = float(codes[i] / spread);
+  return image;
 }
 
 std::map<std::string, std::string> png_metadata(const Encoded& encoded) {

@@ -70,14 +70,15 @@ struct Block {
 
 std::vector<Block> blocks_of(const Picture& picture, ExrType exr_type) {
   std::vector<Block> blocks;
-  for (const Layer& layer : picture.layers) {
+  const auto add = [&](const Layer& layer, const std::string& prefix) {
     const Imf::PixelType type = pixel_type(layer, exr_type);
-    const std::string prefix = blocks.empty() ? "" : layer.name + ".";
     std::vector<std::string> names;
     for (const std::string& channel : layer.channels) names.push_back(prefix + channel);
     const std::size_t row_bytes = std::size_t(picture.width) * names.size() * size_of(type);
     blocks.push_back({layer, type, names, row_bytes, {}});
-  }
+  };
+  for (const Layer& layer : picture.layers) add(layer, blocks.empty() ? "" : layer.name + ".");
+  if (picture.alpha) add(*picture.alpha, "");
   return blocks;
 }
 

@@ -2,6 +2,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "error.h"
@@ -86,6 +87,46 @@ void write_text_chunks(Encoder& encoder, const Picture& picture) {
   }
 }
 
+/// The codes of a row: R, G, B and, if there is alpha, A.
+class Codes {
+ public:
+  Codes(const Picture& picture, const Display& display, const std::filesystem::path& path)
+      : picture_(picture),
+        display_(display),
+        path_(path),
+        light_(std::size_t(picture.width) * 3),
+        alpha_(picture.alpha ? std::size_t(picture.width) : 0),
+        codes_(light_.size() + alpha_.size()) {}
+
+  const std::uint8_t* row(int y) {
+    fill_row(picture_.layers.front(), y, light_, path_);
+    for (float& light : light_) light = displayed(light, display_);
+    if (!picture_.alpha) {
+      std::ranges::transform(light_, codes_.begin(), srgb_of_linear);
+      return codes_.data();
+    }
+    fill_row(*picture_.alpha, y, alpha_, path_);
+    for (std::size_t x = 0; x < alpha_.size(); ++x) {
+      const float* light = &light_[3 * x];
+      const float brightest = std::max({light[0], light[1], light[2]});
+      // Rounded up, so that the little light of a faint alpha fits, too.
+      const float alpha = std::clamp(
+          std::max(std::round(255 * alpha_[x]), std::ceil(255 * brightest)), 0.0F, 255.0F);
+      for (int c = 0; c < 3; ++c)
+        codes_[4 * x + std::size_t(c)] = alpha > 0 ? srgb_of_linear(light[c] * 255 / alpha) : 0;
+      codes_[4 * x + 3] = std::uint8_t(alpha);
+    }
+    return codes_.data();
+  }
+
+ private:
+  const Picture& picture_;
+  const Display& display_;
+  const std::filesystem::path& path_;
+  std::vector<float> light_, alpha_;
+  std::vector<std::uint8_t> codes_;
+};
+
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture& picture, const Display& display) {
@@ -94,7 +135,8 @@ void write_png(const std::filesystem::path& path, const Picture& picture, const 
   const auto width = png_uint_32(picture.width);
   const auto height = png_uint_32(picture.height);
   encoder([&](png_structp png, png_infop info) {
-    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, info, width, height, 8,
+                 picture.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(png, 4);  // as small as libpng's 6, twice as fast
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -102,13 +144,10 @@ void write_png(const std::filesystem::path& path, const Picture& picture, const 
   write_text_chunks(encoder, picture);
   encoder([](png_structp png, png_infop info) { png_write_info(png, info); });
 
-  std::vector<float> row(std::size_t(width) * 3);
-  std::vector<std::uint8_t> codes(row.size());
+  Codes codes(picture, display, path);
   for (int y = 0; y < picture.height; ++y) {
-    fill_row(picture.layers.front(), y, row, path);
-    std::ranges::transform(row, codes.begin(),
-                           [&](float light) { return srgb_of_linear(displayed(light, display)); });
-    encoder([&](png_structp png, png_infop) { png_write_row(png, codes.data()); });
+    const std::uint8_t* row = codes.row(y);
+    encoder([&](png_structp png, png_infop) { png_write_row(png, row); });
   }
   encoder([](png_structp png, png_infop info) { png_write_end(png, info); });
   file.commit();
