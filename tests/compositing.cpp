@@ -1,6 +1,8 @@
 // Pictures laid over pictures: backgrounds, holdouts, alpha and depth images, in every arithmetic
 // and through the program.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <png.h>
 
 #include <random>
 
@@ -15,6 +17,7 @@
 #include "scene/described.h"
 #include "scene/load_scene.h"
 #include "scene/objects.h"
+#include "scene/objects/depth_surface.h"
 #include "support/program.h"
 
 namespace airlight {
@@ -276,7 +279,7 @@ radius = 0.5
   const auto outcome = test::run({"render", folder / "scene.toml", "--alpha", "--exr", "float",
                                   "-o", folder / "layer.exr", "-o", folder / "layer.png"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const Image alpha = read_numbers(folder / "layer.exr", "A");
+  const Image alpha = read_numbers(folder / "layer.exr", "A").image;
   const Image beauty = read_image(folder / "layer.exr"),
               through = read_image(folder / "layer.exr", "transmittance"),
               scattered = read_image(folder / "layer.exr", "in_scatter");
@@ -355,6 +358,208 @@ TEST(Backgrounds, that_cannot_serve_are_told_in_one_line) {
   test::write_bytes(folder / "text.png", "no picture");
   EXPECT_THAT(complaint(folder, {"--background", folder / "text.png"}),
               HasSubstr("background_image names a picture that is not to be had: text.png"));
+}
+
+/// A picture of one number a pixel as an EXR or PFM would hold it, row by row.
+Image depths(int width, int height, const std::vector<float>& values) {
+  Image image(width, height, 1);
+  image.pixels = values;
+  return image;
+}
+
+/// A PFM of one channel; the format starts at the bottom.
+void write_depths(const std::string& path, const Image& image) {
+  std::string bytes = fmt::format("Pf\n{} {}\n-1.0\n", image.width, image.height);
+  for (int y = image.height - 1; y >= 0; --y)
+    bytes.append(reinterpret_cast<const char*>(image.row(y).data()), image.row(y).size_bytes());
+  test::write_bytes(path, bytes);
+}
+
+const Mesh& mesh_of(const Scene& scene) { return std::get<Mesh>(scene.objects.at(0).geometry); }
+
+TEST(DepthImages, of_a_plane_are_the_plane) {
+  const CameraFrame frame = camera_frame({.position = {1, 2, 3}, .target = {0, 1, -2}}, {16, 12});
+  const Vec3<double> normal = normalize(Vec3<double>(0.3, 0.5, 1)), point(0, 0, -4);
+  Image image(16, 12, 1);
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 16; ++x)
+      image.at(x, y, 0) = float(dot(point - frame.position, normal) /
+                                dot(frame.direction(x + 0.5, y + 0.5), normal));
+  const Mesh mesh = depth_surface(image, frame, 0.1);
+  ASSERT_EQ(mesh.positions.size(), 19u * 15);  // with one pixel more all around
+  EXPECT_EQ(mesh.triangles.size(), 2u * 18 * 14);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto [u, v] = mesh.uvs[i];
+    if (u < 0 || u > 1 || v < 0 || v > 1) continue;  // the pixels around have no neighbours
+    EXPECT_NEAR(dot(Vec3<double>(mesh.positions[i]) - point, normal), 0, 2e-5) << u << ", " << v;
+  }
+}
+
+TEST(DepthImages, join_no_pixels_across_a_jump) {
+  const CameraFrame frame = camera_frame({.position = {0, 0, 0}, .target = {0, 0, -1}}, {24, 18});
+  Image image(24, 18, 1);
+  std::mt19937 random(3);
+  for (float& depth : image.pixels)  // a few levels, so that some neighbours are joined
+    depth = std::pow(1.05f, float(random() % 12));
+  constexpr double jump = 0.1;
+  const Mesh mesh = depth_surface(image, frame, jump);
+  for (const auto& triangle : mesh.triangles) {
+    double nearest = far_away, farthest = 0;
+    for (const std::uint32_t corner : triangle) {
+      const double depth = -double(mesh.positions[corner].z);
+      nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+    }
+    // The mean of a corner is at most two steps from the pixel, so corners are four from each
+    // other.
+    EXPECT_LT(farthest / nearest, std::pow(1 + jump, 4) + 1e-6);
+  }
+}
+
+TEST(DepthImages, have_no_gap_for_their_camera) {
+  Scene scene;
+  scene.resolution = {32, 24};
+  Image image(32, 24, 1);
+  std::mt19937 random(5);
+  for (float& depth : image.pixels) depth = 1 + 4 * float(random() % 4);
+  Material black;
+  black.albedo = {};
+  scene.objects = {
+      {"place", depth_surface(image, camera_frame(scene.camera, scene.resolution), 0.1), black}};
+  scene.background = Rgb<double>(1);
+  scene.render.spp = 64, scene.render.samples_per_ray = 1;
+  const Image beauty = Renderer(scene).render(scene.render).film.layer("beauty");
+  for (const float light : beauty.pixels) ASSERT_EQ(light, 0);
+}
+
+/// A room with a ball, seen by a camera that looks down a little; the sky above the far wall.
+constexpr const char* place = R"(
+ambient = 1
+[camera]
+position = [0.3, 1.5, 4]
+target = [0, 0.8, 0]
+fov = 50
+[image]
+width = 64
+height = 48
+[render]
+spp = 4
+samples_per_ray = 0
+[[objects]]
+type = "box"
+min = [-4, -0.1, -3]
+max = [4, 0, 5]
+[[objects]]
+type = "box"
+min = [-4, 0, -3.1]
+max = [4, 1.8, -3]
+[[objects]]
+type = "sphere"
+centre = [0, 0.7, 0]
+radius = 0.7
+)";
+
+TEST(DepthImages, of_a_render_are_seen_at_the_depths_of_the_render) {
+  const Folder folder;
+  test::write_bytes(folder / "place.toml", place);
+  ASSERT_EQ(test::run({"render", folder / "place.toml", "-o", folder / "place.exr"}).status, 0);
+  const Image want = read_numbers(folder / "place.exr", "depth.Z").image;
+  Scene scene = parse_scene(place, folder / "place.toml");
+  const Scene seen = parse_scene(
+      "[[objects]]\ntype = \"depth_image\"\nfile = \"place.exr\"\nmeasure = \"ray\"\n"
+      "[image]\nwidth = 64\nheight = 48\n"
+      "[camera]\nposition = [0.3, 1.5, 4]\ntarget = [0, 0.8, 0]\nfov = 50\n",
+      folder / "seen.toml");
+  scene.objects = seen.objects;
+  const Image got = Renderer(scene).render(scene.render).film.layer("depth");
+  int nothing = 0, off = 0;
+  for (std::size_t i = 0; i < got.pixels.size(); ++i) {
+    // At most a step to a neighbour, where the surface bends or ends; none where it is flat.
+    ASSERT_NEAR(got.pixels[i], want.pixels[i], 0.1f * want.pixels[i]) << i % 64 << ", " << i / 64;
+    off += std::abs(got.pixels[i] - want.pixels[i]) > 2e-5f * want.pixels[i];
+    nothing += want.pixels[i] == 0;
+  }
+  EXPECT_LT(off, 550);     // of 3072: the ball (400), edges and creases
+  EXPECT_GT(nothing, 64);  // of sky
+}
+
+TEST(DepthImages, take_what_is_no_depth_for_nothing) {
+  const Folder folder;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  // Every other column, so that each pixel with a depth stands alone.
+  write_depths(folder / "depths.pfm",
+               depths(5, 3, {nan, 1, 0, 2, infinity, nan, 1, 0, 2, infinity, nan, 1, -3, 2, 100}));
+  const Scene scene = parse_scene(
+      "[image]\nwidth = 10\nheight = 6\n[camera]\nposition = [0, 0, 0]\ntarget = [0, 0, -1]\n"
+      "[[objects]]\ntype = \"depth_image\"\nfile = \"depths.pfm\"\nfarthest = 50\nunit = 2\n",
+      folder / "scene.toml");
+  ASSERT_FALSE(mesh_of(scene).positions.empty());
+  for (const Vec3<float>& p : mesh_of(scene).positions)
+    EXPECT_TRUE(std::abs(p.z + 2) < 1e-6f || std::abs(p.z + 4) < 1e-6f) << p.z;
+}
+
+TEST(DepthImages, come_as_codes_of_a_png_too) {
+  const Folder folder;
+  const std::vector<png_uint_16> codes = {1500, 1500, 3000, 3000};
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = header.height = 2;
+  header.format = PNG_FORMAT_LINEAR_Y;
+  ASSERT_TRUE(png_image_write_to_file(&header, (folder / "depths.png").c_str(), 0, codes.data(), 0,
+                                      nullptr));
+  const std::string text =
+      "[image]\nwidth = 2\nheight = 2\n[camera]\nposition = [0, 0, 0]\ntarget = [0, 0, -1]\n"
+      "[[objects]]\ntype = \"depth_image\"\nfile = \"depths.png\"\n";
+  const Scene scene = parse_scene(text + "unit = 0.001\n", folder / "scene.toml");
+  for (const Vec3<float>& p : mesh_of(scene).positions)
+    EXPECT_TRUE(std::abs(p.z + 1.5f) < 1e-6f || std::abs(p.z + 3) < 1e-6f) << p.z;
+  test::write_bytes(folder / "scene.toml", text);
+  EXPECT_EQ(complaint(folder, {}),
+            "scene.toml:7:1: objects.0.unit is missing; a number above 0 m: what one code of a PNG "
+            "stands for, such as 0.001\n");
+}
+
+TEST(DepthImages, may_have_a_camera_of_their_own) {
+  const Folder folder;
+  write_depths(folder / "depths.pfm", depths(3, 3, std::vector<float>(9, 2)));
+  const Scene scene = parse_scene(
+      "[[objects]]\ntype = \"depth_image\"\nfile = \"depths.pfm\"\nholdout = true\n"
+      "camera = {position = [5, 0, 0], target = [0, 0, 0], fov = 90}\n",
+      folder / "scene.toml");
+  EXPECT_TRUE(scene.objects[0].holdout);
+  for (const Vec3<float>& p : mesh_of(scene).positions) {
+    EXPECT_NEAR(p.x, 3, 1e-6);
+    EXPECT_LE(std::abs(p.y), 4 + 1e-5);
+  }
+}
+
+TEST(DepthImages, that_cannot_serve_are_told_in_one_line) {
+  const Folder folder;
+  const auto scene = [&](const std::string& keys) {
+    test::write_bytes(folder / "scene.toml", "[[objects]]\ntype = \"depth_image\"\n" + keys);
+  };
+  scene("file = \"none.exr\"\n");
+  EXPECT_EQ(complaint(folder, {}),
+            "scene.toml:3:8: objects.0.file names a depth image that is not to be had: none.exr: "
+            "cannot be read: No such file or directory\n");
+  write_depths(folder / "depths.pfm", depths(3, 3, std::vector<float>(9, 2)));
+  scene("file = \"depths.pfm\"\n");
+  EXPECT_EQ(complaint(folder, {}),
+            "scene.toml:3:8: objects.0.file names a depth image of other proportions: depths.pfm "
+            "is 3 x 3 pixels; accepted: 640 x 360, the picture's, a size of the same proportions, "
+            "or a camera of its own\n");
+  write_depths(folder / "depths.pfm",
+               depths(2, 1, std::vector<float>(2, std::numeric_limits<float>::quiet_NaN())));
+  EXPECT_THAT(complaint(folder, {"--size", "8x4"}),
+              HasSubstr("names a depth image without any depth: depths.pfm; accepted: at least one "
+                        "pixel above 0"));
+  write_pfm(folder / "depths.pfm", picture_of(noise(2, 2)));
+  EXPECT_THAT(complaint(folder, {}), HasSubstr("accepted: EXR, PFM and PNG of one channel"));
+  write_exr(folder / "depths.exr", picture_of(noise(2, 2)), ExrType::half);
+  scene("file = \"depths.exr\"\n");
+  EXPECT_THAT(complaint(folder, {}), HasSubstr("it has no channel Z or depth.Z; it has: B, G, R"));
+  scene("file = \"depths.exr\"\nchannel = \"G\"\ndiscontinuity = 0\n");
+  EXPECT_THAT(complaint(folder, {}), HasSubstr("objects.0.discontinuity = 0 is out of range"));
 }
 
 }  // namespace

@@ -43,15 +43,15 @@ bool holds_radiance(const std::filesystem::path& path) {
   return is_exr(encoded) || is_pfm(encoded) || is_hdr(encoded);
 }
 
-Image read_numbers(const std::filesystem::path& path, const std::string& channel) {
+Numbers read_numbers(const std::filesystem::path& path, const std::string& channel) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string name = path.string();
   const Encoded encoded{bytes, name};
-  if (is_exr(encoded)) return decode_exr_channel(encoded, channel);
+  if (is_exr(encoded)) return {decode_exr_channel(encoded, channel)};
   if (!channel.empty())
     fail_to_decode(encoded, "only EXR files have a channel \"" + channel + "\"");
-  if (encoded.starts_with("Pf")) return decode_pfm_numbers(encoded);
-  if (encoded.is_png()) return decode_png_numbers(encoded);
+  if (encoded.starts_with("Pf")) return {decode_pfm_numbers(encoded)};
+  if (encoded.is_png()) return {decode_png_numbers(encoded), true};
   fail_to_decode(encoded, "it is no picture of numbers; accepted: EXR, PFM and PNG of one channel");
 }
 

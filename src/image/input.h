@@ -21,11 +21,17 @@ Image read_image(const std::filesystem::path& path, const std::string& layer = "
 /// a screen, which end at white.
 bool holds_radiance(const std::filesystem::path& path);
 
+/// Numbers that are no colours, one a pixel.
+struct Numbers {
+  Image image;             ///< of one channel
+  bool are_codes = false;  ///< whole numbers from 0 to 255 or 65535, in a unit that nobody told
+};
+
 /// Reads numbers that are no colours, such as depths, one a pixel and as they stand in the file:
 /// floats of EXR and PFM, codes from 0 to 255 or 65535 of a grey PNG. `channel` names a channel of
 /// an EXR file by its whole name ("depth.Z"); "" stands for its only one, or Z, or depth.Z. Throws
 /// Error if the file cannot be read or has more than one number a pixel.
-Image read_numbers(const std::filesystem::path& path, const std::string& channel = "");
+Numbers read_numbers(const std::filesystem::path& path, const std::string& channel = "");
 
 /// The metadata of an EXR or PNG file as text, numbers in their shortest exact form; empty for
 /// other formats.

@@ -6,14 +6,9 @@
 #include "geometry/parallel_shadows.h"
 #include "geometry/world.h"
 #include "render/film.h"
+#include "scene/camera.h"
 
 namespace airlight {
-
-/// Where the rays of a picture start and how they spread: the direction of pixel coordinates (x, y)
-/// is corner + x · right + y · down, not normalised.
-struct CameraFrame {
-  Vec3<double> position, corner, right, down;
-};
 
 /// Everything a kernel needs of a scene, prepared once a picture. It refers to the scene and the
 /// world.

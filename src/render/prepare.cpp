@@ -41,16 +41,6 @@ const Kernel& kernel_of(const Estimators& estimator, InstructionSet isa) {
                                                                   : isa);
 }
 
-CameraFrame camera_frame(const Camera& camera, Resolution resolution) {
-  const Vec3<double> forward = normalize(camera.target - camera.position);
-  const Vec3<double> right = normalize(cross(forward, camera.up));
-  const Vec3<double> up = cross(right, forward);
-  const double half_height = std::tan(camera.fov * (std::numbers::pi / 360));
-  const double pixel = 2 * half_height / resolution.height;
-  return {camera.position, forward - right * (pixel * resolution.width / 2) + up * half_height,
-          right * pixel, up * -pixel};
-}
-
 Estimators estimator_for(const RenderSettings& settings) {
   std::optional<Estimators> estimator = estimator_named(settings.estimator);
   if (!estimator) {

@@ -10,8 +10,6 @@ struct Prepared {
   SampleRange samples;
 };
 
-CameraFrame camera_frame(const Camera& camera, Resolution resolution);
-
 /// The estimator that the settings name, with its parameters. Throws Error with the accepted names.
 Estimators estimator_for(const RenderSettings& settings);
 

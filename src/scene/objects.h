@@ -4,6 +4,7 @@
 #include "scene/objects/blinds.h"
 #include "scene/objects/box.h"
 #include "scene/objects/boxes.h"
+#include "scene/objects/depth_image.h"
 #include "scene/objects/disc.h"
 #include "scene/objects/mesh.h"
 #include "scene/objects/rectangle.h"
@@ -15,7 +16,8 @@
 namespace airlight {
 
 /// Every kind of object a scene file can name. To add one: its file in objects/ and its name here.
-using Objects = std::variant<SphereObject, BoxObject, BoxesObject, RectangleObject, DiscObject,
-                             WallObject, BlindsObject, RoseWindowObject, TreeObject, MeshObject>;
+using Objects =
+    std::variant<SphereObject, BoxObject, BoxesObject, RectangleObject, DiscObject, WallObject,
+                 BlindsObject, RoseWindowObject, TreeObject, MeshObject, DepthImageObject>;
 
 }  // namespace airlight

@@ -3,20 +3,11 @@
 #include <bit>
 
 #include "scene/background_image.h"
-#include "scene/direction.h"
+#include "scene/camera.h"
 #include "scene/reader.h"
 
 namespace airlight {
 namespace {
-
-void check(const Camera& camera, const Cursor& at) {
-  const auto view = unit_vector(camera.target - camera.position);
-  if (!view) at.complain("looks nowhere: its target equals its position", {"target", "position"});
-  const auto up = unit_vector(camera.up);
-  if (!up) at.at_or_here("up").refuse("is no direction: at least one number must not be 0");
-  if (length(cross(*view, *up)) >= 1e-6) return;
-  at.complain("looks along its up: give camera.up another direction", {"up", "target", "position"});
-}
 
 void check(const RenderSettings& render, const Cursor& at) {
   if (render.samples_per_ray > 0 && !std::has_single_bit(std::uint64_t(render.samples_per_ray)))
@@ -35,11 +26,13 @@ void add(Parts parts, Scene& scene) {
   for (std::string& remark : parts.remarks) scene.assumptions.push_back(std::move(remark));
 }
 
-Parts parts_of(const Objects& objects, const Cursor& at, const Files& files) {
+Parts parts_of(const Objects& objects, const Cursor& at, const Files& files, const View& view) {
   return std::visit(
       [&](const auto& object) {
         Parts parts;
-        if constexpr (requires { object.build(at, files); })
+        if constexpr (requires { object.build(at, files, view); })
+          parts = object.build(at, files, view);
+        else if constexpr (requires { object.build(at, files); })
           parts = object.build(at, files);
         else
           parts = object.build(at);
@@ -78,7 +71,7 @@ Scene scene_of(const Value& value, const Files& files) {
                               at.at_or_here("background_image"));
   scene.ambient = document.ambient;
   scene.render = document.render;
-  check(scene.camera, at.at_or_here("camera"));
+  check_camera(scene.camera, at.at_or_here("camera"));
   check(scene.render, at.at_or_here("render"));
   if (document.media.size() > 1)
     at.at_or_here("media").element(1).complain("is a second medium: one is accepted so far");
@@ -95,7 +88,9 @@ Scene scene_of(const Value& value, const Files& files) {
         },
         document.lights[i]);
   for (std::size_t i = 0; i < document.objects.size(); ++i)
-    add(parts_of(document.objects[i], at.at_or_here("objects").element(i), files), scene);
+    add(parts_of(document.objects[i], at.at_or_here("objects").element(i), files,
+                 {scene.camera, scene.resolution}),
+        scene);
   check_together(scene, at);
   return scene;
 }
