@@ -62,7 +62,7 @@ struct Sampled {
 
   /// Samples are drawn a few at a time: each is one long chain of dependent steps, and those of
   /// several overlap in the processor.
-  static constexpr std::uint32_t drawn_ahead = 4;
+  static constexpr std::uint32_t drawn_ahead = 8;
 
   /// Where light comes from when the way out of a camera ray is found: a wide disc gives every ray
   /// a direction of its own.

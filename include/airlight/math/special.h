@@ -70,7 +70,15 @@ AIRLIGHT_INLINE F exponential_fraction(F y, F drop, F v) noexcept {
   const F small(std::same_as<F, double> ? 1e-5 : 2e-3);
   const F w = F(1) - v;
   const F series = v * (F(1) - y * w * F(0.5) + y * y * w * (w - v) * F(1. / 6));
-  const F inverse = -log1p_minus(min(v * drop, F(1))) / max(y, small);
+  const F z = min(v * drop, F(1)), steep = max(y, small);
+  F inverse;
+  if constexpr (std::floating_point<F>) {
+    inverse = -log1p_minus(z) / steep;
+  } else {  // the same with one division
+    const F r = F(1) - z, lost = F(1) - r;
+    inverse = select(lost == F(0), z, -log(max(r, F(1e-38f))) * z) /
+              (select(lost == F(0), F(1), lost) * steep);
+  }
   return clamp(select(y < small, series, inverse), F(0), F(1));
 }
 
