@@ -181,9 +181,8 @@ TEST(SceneReader, names_the_accepted_keys_of_a_table) {
             "fog.toml:2:1: media.0.sigma_q is not known here; accepted: albedo, emission, phase, "
             "shape, sigma_a, sigma_s, sigma_t, visibility");
   EXPECT_EQ(error_of("lamps = 1\n"),
-            "fog.toml:1:1: lamps is not known here; accepted: ambient, background, "
-            "background_image, camera, image, "
-            "lights, media, objects, render");
+            "fog.toml:1:1: lamps is not known here; accepted: ambient, animation, background, "
+            "background_image, camera, image, lights, media, objects, render");
 }
 
 TEST(SceneReader, names_a_missing_key) {

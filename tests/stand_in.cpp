@@ -63,8 +63,9 @@ Model room_with_skylight() {
 }
 
 /// What a stand-in's scene file means, the model itself left out.
-Scene scene_of(const StandIn& stand_in) {
-  return parse_scene(stand_in.toml.substr(0, stand_in.toml.find("[[objects]]")), "model");
+Scene scene_of(const StandIn& stand_in, const Model& model) {
+  const std::string toml = stand_in.toml(model);
+  return parse_scene(toml.substr(0, toml.find("[[objects]]")), "model");
 }
 
 }  // namespace
@@ -99,9 +100,9 @@ TEST(LookAround, finds_the_sky_where_nothing_opaque_is_in_the_way) {
 }
 
 TEST(StandIn, sees_a_thing_from_outside) {
-  const StandIn stand_in = stand_in_for(cube(), "cube.obj");
+  const StandIn stand_in(cube(), "cube.obj");
   EXPECT_THAT(stand_in.remark({}), HasSubstr("a camera outside at "));
-  const Scene scene = scene_of(stand_in);
+  const Scene scene = scene_of(stand_in, cube());
   EXPECT_GT(length(scene.camera.position - Vec3<double>{1, 1, 1}), 3);
   const Box& fog = std::get<Box>(scene.medium->shape);
   for (int k = 0; k < 3; ++k) {
@@ -111,9 +112,9 @@ TEST(StandIn, sees_a_thing_from_outside) {
 }
 
 TEST(StandIn, sees_a_room_from_inside_with_the_sun_in_its_window) {
-  const StandIn stand_in = stand_in_for(room(), "room.obj");
+  const StandIn stand_in(room(), "room.obj");
   EXPECT_THAT(stand_in.remark({}), HasSubstr("a camera in the room at "));
-  const Scene scene = scene_of(stand_in);
+  const Scene scene = scene_of(stand_in, room());
   const Vec3<double> eye = scene.camera.position;
   EXPECT_TRUE(eye.x > 0 && eye.x < 6 && eye.y > 0 && eye.y < 3 && eye.z > 0 && eye.z < 4);
   const Vec3<double> light = std::get<Directional>(scene.lights.at(0)).direction;
@@ -159,9 +160,9 @@ TEST(StandIn, keeps_the_camera_and_the_lights_of_a_model) {
   Model model = cube();
   model.camera = Camera{{5, 6, 7}, {0, 1, 0}, {0, 1, 0}, 33};
   model.lights.push_back(Directional{{1, 2, 3}, {0, 0.6, -0.8}, 0.5});
-  const StandIn stand_in = stand_in_for(model, "cube.obj");
+  const StandIn stand_in(model, "cube.obj");
   EXPECT_THAT(stand_in.remark({}), StartsWith("assumed: fog from "));
-  const Scene scene = scene_of(stand_in);
+  const Scene scene = scene_of(stand_in, model);
   EXPECT_EQ(scene.camera.position, Vec3<double>(5, 6, 7));
   EXPECT_EQ(scene.camera.fov, 33);
   const auto& light = std::get<Directional>(scene.lights.at(0));
@@ -183,7 +184,7 @@ TEST(StandIn, makes_a_scene_of_a_model_file) {
 }
 
 TEST(StandIn, tells_only_what_was_not_changed) {
-  const StandIn stand_in = stand_in_for(cube(), "cube.obj");
+  const StandIn stand_in(cube(), "cube.obj");
   EXPECT_THAT(stand_in.remark({}), AllOf(HasSubstr("a camera outside at"), HasSubstr("azimuth 70"),
                                          HasSubstr("elevation 40"), HasSubstr("fog from"),
                                          HasSubstr("light of the sky")));

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "flags.h"
+#include "image/numbered.h"
 
 namespace airlight {
 
@@ -57,7 +58,31 @@ void Outputs::check() {
   const auto wanted = read_flags<Development>(changes_);
   options_ = {.exr = wanted.exr,
               .display = {.exposure = float(wanted.exposure), .tone_map = wanted.tonemap}};
-  for (const auto& file : files_) airlight::check_picture_path(file);
+  for (const auto& file : files_) {
+    if (airlight::is_pattern(file))
+      throw airlight::Error(file.string() +
+                            ": # stands for the number of a frame, which --frames gives");
+    airlight::check_picture_path(file);
+  }
+}
+
+Outputs Outputs::of_frame(std::int64_t frame) const {
+  Outputs result = *this;
+  for (auto& file : result.files_) {
+    if (!airlight::is_pattern(file))
+      throw airlight::Error(file.string() +
+                            ": has no place for the number of a frame, which --frames wants; "
+                            "accepted is a name such as out.####.png");
+    file = airlight::numbered(file, frame);
+  }
+  return result;
+}
+
+bool Outputs::exist() const {
+  return std::ranges::all_of(files_, [](const auto& file) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error);
+  });
 }
 
 void Outputs::write(const airlight::Picture& picture) const {

@@ -11,8 +11,16 @@ class Outputs {
  public:
   void declare(CLI::App& verb);
 
-  /// Throws airlight::Error if a file could not be written or a flag has a wrong value.
+  /// Throws airlight::Error if a file could not be written, a flag has a wrong value, or a name has
+  /// a place for the number of a frame.
   void check();
+
+  /// The files of one frame, whose number goes where the names have ####. Throws airlight::Error
+  /// for a name without.
+  Outputs of_frame(std::int64_t frame) const;
+
+  /// Whether every file is there. Being written whole or not at all, they are whole, too.
+  bool exist() const;
 
   /// Writes every file that can be written; then throws the first airlight::Error there was.
   void write(const airlight::Picture& picture) const;

@@ -17,7 +17,10 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO)) {}
+ProgressLine::ProgressLine(bool wanted, std::string what)
+    : wanted_(wanted && isatty(STDERR_FILENO)), what_(std::move(what)) {
+  if (!what_.empty()) what_ += " | ";
+}
 
 void ProgressLine::show(const airlight::Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
@@ -27,7 +30,7 @@ void ProgressLine::show(const airlight::Progress& progress) {
       progress.fraction > 0
           ? duration(progress.seconds * (1 - progress.fraction) / progress.fraction)
           : "?";
-  fmt::print(stderr, "\r{} elapsed | {} remaining | {} of {} spp, {:.0f} %\x1b[K",
+  fmt::print(stderr, "\r{}{} elapsed | {} remaining | {} of {} spp, {:.0f} %\x1b[K", what_,
              duration(progress.seconds), remaining, progress.samples_done, progress.samples,
              100 * progress.fraction);
   visible_ = true;

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <string>
 
 #include "render/render.h"
 
@@ -7,7 +8,8 @@
 /// nothing where stderr is no terminal.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool wanted);
+  /// `what` stands first, such as "frame 3".
+  explicit ProgressLine(bool wanted, std::string what = "");
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -20,6 +22,7 @@ class ProgressLine {
 
  private:
   bool wanted_;
+  std::string what_;
   bool visible_ = false;
   std::chrono::steady_clock::time_point next_;
 };

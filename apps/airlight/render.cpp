@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "flags.h"
+#include "frame_range.h"
 #include "interrupt.h"
 #include "numbers.h"
 #include "outputs.h"
@@ -37,6 +38,8 @@ struct Flags {
   std::vector<airlight::Override> schedule;
   std::string crop;
   bool alpha = false;
+  std::string frames;
+  bool skip_existing = false;
   bool quiet = false;
 };
 
@@ -47,8 +50,10 @@ constexpr const char* examples = R"(Examples:
   airlight render fog.toml -o fog.png --background photo.jpg --size 1600x900
   airlight render fog.toml -o layer.exr -o layer.png --alpha
   airlight render fog.toml -o fog.exr --spp 1024 --preview 2 --time-limit 60
+  airlight render scenes/destruction.toml --frames 0..47 -o wall.####.png --skip-existing
 
-Ctrl-C ends a render and writes what is done (exit status 130); a second Ctrl-C ends it at once.
+Ctrl-C ends a render and writes what is done (exit status 130); a second Ctrl-C ends it at once. Of a run of frames
+only whole ones are written; with --skip-existing the same command goes on where a run ended.
 )";
 
 std::optional<PixelRect> crop_of(const std::string& text) {
@@ -61,6 +66,20 @@ std::optional<PixelRect> crop_of(const std::string& text) {
   return PixelRect{int(n[0]), int(n[1]), int(n[2]), int(n[3])};
 }
 
+/// What holds for every picture of a run.
+struct Manner {
+  Schedule schedule;
+  std::optional<PixelRect> crop;
+  bool alpha;
+  bool quiet;
+
+  explicit Manner(const Flags& flags)
+      : schedule(read_flags<Schedule>(flags.schedule)),
+        crop(crop_of(flags.crop)),
+        alpha(flags.alpha),
+        quiet(flags.quiet) {}
+};
+
 /// The film with how it came about.
 airlight::Picture picture_of(const airlight::Film& film, const airlight::RenderSettings& settings,
                              bool alpha, const char* instruction_set, std::int64_t samples,
@@ -71,6 +90,7 @@ airlight::Picture picture_of(const airlight::Film& film, const airlight::RenderS
                       {"samples_per_ray", settings.samples_per_ray},
                       {"first_sample", settings.first_sample.value_or(0)},
                       {"seed", settings.seed},
+                      {"frame", settings.frame},
                       {"estimator", settings.estimator},
                       {"seconds", seconds},
                       {"isa", std::string(instruction_set)},
@@ -78,60 +98,106 @@ airlight::Picture picture_of(const airlight::Film& film, const airlight::RenderS
   return picture;
 }
 
-int render(Flags& flags) {
-  flags.outputs.check();
-  const auto schedule = read_flags<Schedule>(flags.schedule);
-  const std::optional<PixelRect> crop = crop_of(flags.crop);
-  Scene scene = flags.scene.load();
-  if (flags.alpha) scene.background = {}, scene.background_image = {};
+/// Which picture of a run of frames one is.
+struct Turn {
+  std::string name;  ///< for the progress line; empty for a picture by itself
+  bool is_first = true;
+};
+
+/// Renders a scene into files. Returns the exit status.
+int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
+                   const Turn& turn = {}) {
+  if (manner.alpha) scene.background = {}, scene.background_image = {};
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
-  if (!flags.quiet) SceneFlags::tell(scene);
+  if (!manner.quiet && turn.is_first) SceneFlags::tell(scene);
 
   const Interrupt interrupt;
-  ProgressLine line(!flags.quiet);
+  ProgressLine line(!manner.quiet, turn.name);
   std::stop_source stop;
   airlight::RenderControl control;
-  control.crop = crop;
-  control.time_limit = schedule.time_limit;
+  control.crop = manner.crop;
+  control.time_limit = manner.schedule.time_limit;
   control.stop = stop.get_token();
   control.on_progress = [&](const airlight::Progress& progress) {
     if (Interrupt::received()) stop.request_stop();
     line.show(progress);
   };
   const char* const instruction_set = renderer.instruction_set(scene.render);
-  if (schedule.preview > 0) {
+  if (manner.schedule.preview > 0) {
     control.short_passes = true;
     control.on_pass = [&, next = 0.](const airlight::Film& film,
                                      const airlight::Progress& progress) mutable {
       if (progress.seconds < next || progress.samples_done == progress.samples) return;
       try {
-        flags.outputs.write(picture_of(film, scene.render, flags.alpha, instruction_set,
-                                       progress.samples_done, progress.seconds));
+        outputs.write(picture_of(film, scene.render, manner.alpha, instruction_set,
+                                 progress.samples_done, progress.seconds));
       } catch (const Error& error) {  // the render goes on: its last picture may succeed
         line.clear();
         fmt::print(stderr, "{}\n", error.what());
       }
-      next = progress.seconds + schedule.preview;
+      next = progress.seconds + manner.schedule.preview;
     };
   }
 
   const Rendered done = renderer.render(scene.render, control);
   line.clear();
-  flags.outputs.write(picture_of(done.film, scene.render, flags.alpha, done.instruction_set,
-                                 done.samples, done.seconds));
+  const bool interrupted = !done.complete && Interrupt::received();
+  if (interrupted && !turn.name.empty()) return 128 + Interrupt::received();
+  outputs.write(picture_of(done.film, scene.render, manner.alpha, done.instruction_set,
+                           done.samples, done.seconds));
   if (done.rejected > 0)
     fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
                done.rejected);
-  if (!flags.quiet) {
+  if (!manner.quiet) {
     for (const std::string& warning : airlight::warnings_after(scene, done.film))
       fmt::print(stderr, "warning: {}\n", warning);
     const std::string of = done.complete ? "" : fmt::format(" of {}", scene.render.spp);
-    fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", flags.outputs.names(),
-               done.film.crop.width, done.film.crop.height, done.samples, of, done.seconds,
-               done.instruction_set);
+    fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", outputs.names(), done.film.crop.width,
+               done.film.crop.height, done.samples, of, done.seconds, done.instruction_set);
   }
-  return done.complete || !Interrupt::received() ? 0 : 128 + Interrupt::received();
+  return interrupted ? 128 + Interrupt::received() : 0;
+}
+
+/// Renders the frames that are wanted, one after the other.
+int render_frames(const Flags& flags) {
+  const FrameRange range = frame_range(flags.frames);
+  const Manner manner(flags);
+  if (manner.schedule.preview > 0)
+    throw Error("--preview does not go with --frames: a frame that is not whole would look done");
+  const airlight::SceneFile file = flags.scene.open();
+  std::vector<std::int64_t> wanted;
+  for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
+    Outputs outputs = flags.outputs.of_frame(frame);
+    outputs.check();
+    file.check(frame);
+    if (!flags.skip_existing || !outputs.exist()) wanted.push_back(frame);
+  }
+  if (const auto skipped = range.count() - std::ssize(wanted); skipped > 0 && !flags.quiet)
+    fmt::print("{} of {} frames are there already\n", skipped, range.count());
+
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Scene scene = flags.scene.load(file, wanted[i]);
+    Outputs outputs = flags.outputs.of_frame(wanted[i]);
+    outputs.check();
+    const std::string name = fmt::format("frame {}, {} of {}", wanted[i], i + 1, wanted.size());
+    const int status = render_picture(scene, outputs, manner, {name, i == 0});
+    if (status != 0) return status;
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+int render(Flags& flags) {
+  if (!flags.frames.empty()) return render_frames(flags);
+  flags.outputs.check();
+  const Manner manner(flags);
+  if (flags.skip_existing && flags.outputs.exist()) {
+    if (!flags.quiet) fmt::print("{}: there already\n", flags.outputs.names());
+    return 0;
+  }
+  const Scene scene = flags.scene.load();
+  return render_picture(scene, flags.outputs, manner);
 }
 
 }  // namespace
@@ -141,6 +207,15 @@ Action set_up_render(CLI::App& verb) {
   verb.footer(examples);
   flags->scene.declare(verb);
   flags->outputs.declare(verb);
+  verb.add_option("--frames", flags->frames,
+                  "renders FIRST..LAST of an animation, or one; the outputs' names have #### where "
+                  "the number goes")
+      ->type_name("")
+      ->take_last()
+      ->group("Output");
+  verb.add_flag("--skip-existing", flags->skip_existing,
+                "leaves out pictures that are there already, so that a run can be taken up again")
+      ->group("Output");
   verb.add_option("--crop", flags->crop, "renders X,Y,WIDTH,HEIGHT of the picture only, in pixels")
       ->type_name("")
       ->group("Scene");

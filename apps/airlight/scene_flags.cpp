@@ -5,7 +5,6 @@
 #include "numbers.h"
 #include "render/prepare.h"
 #include "render/summary.h"
-#include "scene/load_scene.h"
 
 namespace {
 
@@ -69,14 +68,26 @@ void SceneFlags::preset(const std::string& path, const std::string& value) {
   changes_.emplace(changes_.begin(), path, value, path + " = " + value);
 }
 
-airlight::Scene SceneFlags::load() const {
+std::vector<airlight::Override> SceneFlags::changes() const {
   std::vector<airlight::Override> changes = changes_;
   for (airlight::Override& change : changes)
     if (change.said == "--samples-per-ray all") change.value = "0";
-  airlight::Scene scene = airlight::load_scene(file_, changes);
-  check_estimator(scene, changes);
+  return changes;
+}
+
+airlight::Scene SceneFlags::load() const {
+  airlight::Scene scene = airlight::load_scene(file_, changes());
+  check_estimator(scene, changes_);
   return scene;
 }
+
+airlight::Scene SceneFlags::load(const airlight::SceneFile& file, std::int64_t frame) const {
+  airlight::Scene scene = file.scene(frame);
+  check_estimator(scene, changes_);
+  return scene;
+}
+
+airlight::SceneFile SceneFlags::open() const { return airlight::SceneFile(file_, changes()); }
 
 void SceneFlags::tell(const airlight::Scene& scene) {
   if (!scene.assumptions.empty()) fmt::print(stderr, "{}\n", fmt::join(scene.assumptions, "; "));

@@ -1,8 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "scene/document.h"
-#include "scene/scene.h"
+#include "scene/load_scene.h"
 #include "verb.h"
 
 /// What every verb that takes a scene has in common: the file, changes of its values by their
@@ -18,12 +17,18 @@ class SceneFlags {
   /// The scene with all changes made. Throws airlight::Error.
   airlight::Scene load() const;
 
+  /// The file for many frames, and the scene of one of them. Throws airlight::Error.
+  airlight::SceneFile open() const;
+  airlight::Scene load(const airlight::SceneFile& file, std::int64_t frame) const;
+
   /// Prints to stderr what was assumed for a scene and the warnings that need no ray.
   static void tell(const airlight::Scene& scene);
 
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  std::vector<airlight::Override> changes() const;
+
   std::filesystem::path file_;
   std::vector<airlight::Override> changes_;
 };

@@ -27,6 +27,7 @@ inline constexpr const char* per_metre = "1/m";
 inline constexpr const char* degree = "degrees";
 inline constexpr const char* pixel = "pixels";
 inline constexpr const char* second = "s";
+inline constexpr const char* metre_per_second = "m/s";
 inline constexpr const char* stop = "stops";
 inline constexpr const char* irradiance = "W/m2";
 inline constexpr const char* radiance = "W/(m2 sr)";

@@ -13,6 +13,13 @@
 namespace airlight {
 namespace {
 
+/// The seed of a frame's noise; that of frame 0 is the seed itself.
+std::uint32_t noise_seed(const RenderSettings& settings) {
+  const auto seed = std::uint32_t(settings.seed);
+  if (settings.noise == Noise::still || settings.frame == 0) return seed;
+  return mix_bits(mix_bits(seed ^ 0x6c8e9cf5u) + std::uint32_t(settings.frame));
+}
+
 bool has_wide_disc(const Scene& scene) {
   for (const Lights& light : scene.lights)
     if (const auto* sun = std::get_if<Directional>(&light))
@@ -142,7 +149,7 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
                           : has_wide_disc(scene) ? 4
                                                  : 1024;
   frame.samples_per_surface_ray = frame.through_centre ? 4 : std::min(frame.samples_per_ray, 4u);
-  frame.seed = std::uint32_t(settings.seed);
+  frame.seed = noise_seed(settings);
   return {frame,
           kernel_of(estimator, settings.isa),
           {std::uint32_t(settings.first_sample.value_or(0)), std::uint32_t(settings.spp)}};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/accepted.h"
+#include "scene/document.h"
 #include "scene/required.h"
 
 namespace airlight {
@@ -97,6 +98,8 @@ std::string accepted(const Range& range, const char* unit) {
     return "a text in quotes";
   } else if constexpr (std::is_enum_v<T>) {
     return "one of " + enum_words<T>();
+  } else if constexpr (std::is_same_v<T, Value>) {
+    return "what the value at the path takes";
   } else if constexpr (is_list<T>) {
     using Element = typename T::value_type;
     if constexpr (Described<Element> || is_family<Element>)

@@ -211,33 +211,41 @@ std::string toml_text(const std::string& text) {
   return quoted + "\"";
 }
 
-void apply(const Override& change, Value& document) {
-  const auto source = std::make_shared<const std::string>(change.said);
-  const std::vector<std::string> parts = split(change.path);
+bool is_within(const std::string& path, const std::string& whole) {
+  return path == whole || path.starts_with(whole + ".");
+}
+
+void replace(const std::string& path, Value value, Value& document) {
+  const std::string said = value.key_place.text();
   Value* at = &document;
+  bool is_new = false;
   std::string so_far;
-  for (const std::string& part : parts) {
+  for (const std::string& part : split(path)) {
     const std::string here = so_far.empty() ? "the scene" : so_far;
     so_far += (so_far.empty() ? "" : ".") + part;
-    if (part.empty()) throw Error(change.said + ": a key is empty in the path");
+    if (part.empty()) throw Error(said + ": a key is empty in the path");
+    if (is_new && is_index(part)) at->is_sparse = true;
     if (auto* array = std::get_if<Value::Array>(&at->data)) {
       if (!is_index(part) || std::stoul(part) >= array->size())
-        throw Error(fmt::format("{}: {} is not there; {} is a list of {}, counted from 0",
-                                change.said, so_far, here, array->size()));
+        throw Error(fmt::format("{}: {} is not there; {} is a list of {}, counted from 0", said,
+                                so_far, here, array->size()));
       at = &(*array)[std::stoul(part)];
     } else if (auto* table = std::get_if<Value::Table>(&at->data)) {
-      const auto [entry, is_new] = table->try_emplace(part);
+      const auto [entry, made] = table->try_emplace(part);
       at = &entry->second;
-      if (is_new) at->place = at->key_place = {source};
+      is_new = made;
+      if (is_new) at->place = at->key_place = value.key_place;
     } else {
-      throw Error(fmt::format("{}: {} is not there; {} = {} has no parts", change.said, so_far,
-                              here, at->text()));
+      throw Error(
+          fmt::format("{}: {} is not there; {} = {} has no parts", said, so_far, here, at->text()));
     }
   }
-  Value value = parse_value(change, source);
-  at->data = std::move(value.data);
-  at->place = {source};
-  at->key_place = {source};
+  *at = std::move(value);
+}
+
+void apply(const Override& change, Value& document) {
+  const auto source = std::make_shared<const std::string>(change.said);
+  replace(change.path, parse_value(change, source), document);
 }
 
 }  // namespace airlight

@@ -32,8 +32,10 @@ struct Value {
   };
 
   std::variant<Table, Array, std::string, double, std::int64_t, bool, Date> data;
-  Place place;      ///< of the value
-  Place key_place;  ///< of its key, if it has one
+  Place place;                ///< of the value
+  Place key_place;            ///< of its key, if it has one
+  bool is_sparse = false;     ///< a table of some elements of a list, by their indices
+  bool between_keys = false;  ///< worked out from an animation: a whole number is the nearest one
 
   const Table* table() const { return std::get_if<Table>(&data); }
   const Array* array() const { return std::get_if<Array>(&data); }
@@ -66,8 +68,15 @@ Value read_document(const std::filesystem::path& path);
 /// A text as a TOML value, in quotes.
 std::string toml_text(const std::string& text);
 
-/// Sets the value at a path. Tables on the way are made where they are missing; elements of arrays
-/// must be there. Throws Error if the path leads nowhere or the value is none.
+/// Whether a path names the value at `whole` or a part of it.
+bool is_within(const std::string& path, const std::string& whole);
+
+/// Sets the value at a path (keys and indices, separated by dots). Tables on the way are made where
+/// they are missing; elements of arrays must be there, or the array must be missing: it is then a
+/// sparse one. Throws Error, with the place of the value's key, if the path leads nowhere.
+void replace(const std::string& path, Value value, Value& document);
+
+/// The same for an override. Throws Error also if its value is none.
 void apply(const Override& change, Value& document);
 
 }  // namespace airlight

@@ -50,7 +50,7 @@ Collimated CollimatedDocument::light(const Cursor& at, const Files& files,
 
   beam.cross_section = cross_section_of(*cross_section, at.at_or_here("cross_section"));
   if (image) {
-    Texture texture = named_texture(*image, at.at_or_here("image"), files.folder);
+    Texture texture = named_texture(*image, at.at_or_here("image"), files);
     texture.wrap_u = texture.wrap_v = Wrap::clamp;
     beam.image = int(textures.size());
     textures.push_back(std::move(texture));

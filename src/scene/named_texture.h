@@ -1,15 +1,14 @@
 #pragma once
 #include "error.h"
-#include "image/texture.h"
 #include "scene/cursor.h"
+#include "scene/objects/files.h"
 
 namespace airlight {
 
 /// Reads the picture that a key names. Throws Error at the key if it cannot be read.
-inline Texture named_texture(const std::string& file, const Cursor& at,
-                             const std::filesystem::path& folder) {
+inline Texture named_texture(const std::string& file, const Cursor& at, const Files& files) {
   try {
-    return load_texture(folder / file);
+    return files.texture(file);
   } catch (const Error& error) {
     at.complain(std::string("names a picture that is not to be had: ") + error.what());
   }

@@ -9,6 +9,7 @@
 #include "scene/objects/mesh.h"
 #include "scene/objects/rectangle.h"
 #include "scene/objects/rose_window.h"
+#include "scene/objects/shattered_wall.h"
 #include "scene/objects/sphere.h"
 #include "scene/objects/tree.h"
 #include "scene/objects/wall.h"
@@ -16,8 +17,8 @@
 namespace airlight {
 
 /// Every kind of object a scene file can name. To add one: its file in objects/ and its name here.
-using Objects =
-    std::variant<SphereObject, BoxObject, BoxesObject, RectangleObject, DiscObject, WallObject,
-                 BlindsObject, RoseWindowObject, TreeObject, MeshObject, DepthImageObject>;
+using Objects = std::variant<SphereObject, BoxObject, BoxesObject, RectangleObject, DiscObject,
+                             WallObject, ShatteredWallObject, BlindsObject, RoseWindowObject,
+                             TreeObject, MeshObject, DepthImageObject>;
 
 }  // namespace airlight

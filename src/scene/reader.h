@@ -42,15 +42,32 @@ inline double read_number(const Cursor& at, const Range& range, const std::strin
 }
 
 inline std::int64_t read_whole(const Cursor& at, const Range& range, const std::string& wanted) {
+  if (at.value().between_keys) return std::llround(read_number(at, range, wanted));
   const auto* number = std::get_if<std::int64_t>(&at.value().data);
   if (!number) at.refuse("is not a whole number: " + wanted);
   if (!range.contains(double(*number))) at.refuse("is out of range: " + wanted);
   return *number;
 }
 
-/// Exactly `count` numbers.
+/// A path set a part of something that is not said and has no default.
+[[noreturn]] inline void refuse_part(const Cursor& at) {
+  at.complain("is not there; only as a whole can it be set");
+}
+
+/// Exactly `count` numbers; what a sparse list leaves out stays.
 inline void read_numbers(const Cursor& at, double* numbers, std::size_t count, const Range& range,
                          const std::string& wanted) {
+  if (at.value().is_sparse) {
+    std::vector<std::string> indices;
+    for (std::size_t i = 0; i < count; ++i) {
+      indices.push_back(std::to_string(i));
+      if (const auto found = at.find(indices[i])) numbers[i] = read_number(*found, range, wanted);
+    }
+    for (const auto& [key, unused] : *at.value().table())
+      if (std::ranges::find(indices, key) == indices.end())
+        at.unknown(key, accepted_words(indices));
+    return;
+  }
   const Value::Array* array = at.value().array();
   if (!array) at.refuse("is not a list of numbers: " + wanted);
   if (array->size() != count)
@@ -127,6 +144,8 @@ void read_family(const Cursor& at, Family& value) {
 
 template <class T>
 void read(const Cursor& at, T& value, const Field& field) {
+  if constexpr (is_optional<T> || is_required<T> || is_list<T>)
+    if (at.value().is_sparse) refuse_part(at);
   if constexpr (is_optional<T>) {
     read(at, value.emplace(), field);
   } else if constexpr (is_required<T>) {
@@ -140,15 +159,15 @@ void read(const Cursor& at, T& value, const Field& field) {
   } else if constexpr (std::is_arithmetic_v<T>) {
     value = T(read_number(at, field.range, hint<T>(field)));
   } else if constexpr (std::is_same_v<T, Rgb<double>>) {
-    if (at.value().array()) {
-      double rgb[3];
+    if (at.value().array() || at.value().is_sparse) {
+      double rgb[3] = {value.r, value.g, value.b};
       read_numbers(at, rgb, 3, field.range, hint<T>(field));
       value = {rgb[0], rgb[1], rgb[2]};
     } else {
       value = Rgb<double>(read_number(at, field.range, hint<T>(field)));
     }
   } else if constexpr (std::is_same_v<T, Vec3<double>>) {
-    double xyz[3];
+    double xyz[3] = {value.x, value.y, value.z};
     read_numbers(at, xyz, 3, field.range, hint<T>(field));
     value = {xyz[0], xyz[1], xyz[2]};
   } else if constexpr (tuple_size<T> > 0) {
@@ -163,6 +182,8 @@ void read(const Cursor& at, T& value, const Field& field) {
     for (const Word<T>& word : words<T>)
       if (text && *text == word.text) known = true, value = word.value;
     if (!known) at.refuse("is not known here; accepted: " + enum_words<T>());
+  } else if constexpr (std::is_same_v<T, Value>) {
+    value = at.value();
   } else if constexpr (is_list<T>) {
     const Value::Array* array = at.value().array();
     if (!array) at.refuse("is not a list: " + hint<T>(field));

@@ -65,7 +65,9 @@ std::vector<Chapter> scene_reference() {
                               "how the picture is made; each key is a flag, too: --spp"),
         table<MediumDocument>("[[media]]",
                               "a homogeneous medium: sigma_s and sigma_a, or albedo and sigma_t, "
-                              "or albedo and visibility")}},
+                              "or albedo and visibility"),
+        table<AnimationDocument>("[[animation]]",
+                                 "a value that changes from frame to frame, by its path")}},
       {"Lights", "[[lights]], told apart by type.", members_of<LightDocuments>()},
       {"Cross-sections", "cross_section of a collimated light, told apart by type.",
        members_of<CrossSectionDocuments>()},

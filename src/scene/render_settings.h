@@ -10,6 +10,7 @@ namespace airlight {
 enum class Edges { cached, per_step };
 enum class MixWith { equidistant, distance };
 enum class PixelFilter { box, tent, gaussian };
+enum class Noise { per_frame, still };
 enum class Visibility { embree, analytic };
 enum class InstructionSet { best, reference, scalar, baseline, avx2, avx512 };
 
@@ -29,6 +30,11 @@ inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
     {"box", PixelFilter::box, "the pixel's square"},
     {"tent", PixelFilter::tent, "a tent of radius one pixel"},
     {"gaussian", PixelFilter::gaussian, "standard deviation 0.5, cut at 1.5 pixels"},
+};
+template <>
+inline constexpr Word<Noise> words<Noise>[] = {
+    {"per_frame", Noise::per_frame, "new in every frame, as film grain is"},
+    {"still", Noise::still, "the same in all frames, for pictures to be compared"},
 };
 template <>
 inline constexpr Word<Visibility> words<Visibility>[] = {
@@ -56,11 +62,17 @@ struct RenderSettings {
   std::int64_t spp = 16;
   std::int64_t samples_per_ray = 4;  ///< 0: all
   std::int64_t seed = 0;
+  Noise noise = Noise::per_frame;
   std::optional<std::int64_t> first_sample;
   PixelFilter filter = PixelFilter::tent;
   Visibility visibility = Visibility::embree;
   InstructionSet isa = InstructionSet::best;
   std::int64_t threads = 0;
+  std::int64_t frame = 0;
+  double fps = 24;
+
+  /// The moment that the frame shows.  [s]
+  double seconds() const { return double(frame) / fps; }
 
   template <class Visitor>
   static constexpr void describe(Visitor&& field) {
@@ -80,6 +92,7 @@ struct RenderSettings {
           "how many of them share a camera ray, a power of two; 0, or spp up to this without "
           "first_sample: all, through the pixel's centre, without filter");
     field("seed", &S::seed, unit::none, closed(0, 4294967295.), "another seed gives other noise");
+    field("noise", &S::noise, unit::none, any_number(), "what noise does from frame to frame");
     field("first_sample", &S::first_sample, unit::none, closed(0, 1 << 28),
           "where a range of samples starts, for pictures to be merged");
     field("filter", &S::filter, unit::none, any_number(),
@@ -88,6 +101,9 @@ struct RenderSettings {
     field("isa", &S::isa, unit::none, any_number(),
           "the arithmetic and instruction set to compute with");
     field("threads", &S::threads, unit::none, closed(0, 4096), "worker threads; 0: one a core");
+    field("frame", &S::frame, unit::none, closed(0, 1 << 24),
+          "which moment of an animation is shown, counted from 0");
+    field("fps", &S::fps, unit::none, closed(1e-3, 1e6), "frames a second of an animation");
   }
 };
 

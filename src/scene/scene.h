@@ -93,7 +93,8 @@ struct Scene {
   std::vector<Object> objects;
   std::optional<Medium> medium;
   std::vector<Lights> lights;
-  std::vector<std::string> light_groups;  ///< of each light; empty: none, as for lights beyond its end
+  std::vector<std::string>
+      light_groups;  ///< of each light; empty: none, as for lights beyond its end
   RenderSettings render;
   std::vector<std::string>
       assumptions;  ///< what a model left open and was filled in, a sentence each

@@ -36,8 +36,7 @@ Parts parts_of(const Objects& objects, const Cursor& at, const Files& files, con
           parts = object.build(at, files);
         else
           parts = object.build(at);
-        if constexpr (requires { object.paint(parts, at, files.folder); })
-          object.paint(parts, at, files.folder);
+        if constexpr (requires { object.paint(parts, at, files); }) object.paint(parts, at, files);
         object.place(parts, object.name);
         return parts;
       },

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "scene/animation.h"
 #include "scene/light_documents.h"
 #include "scene/medium_document.h"
 #include "scene/objects.h"
@@ -19,6 +20,7 @@ struct SceneDocument {
   std::vector<LightDocuments> lights;
   std::vector<Objects> objects;
   RenderSettings render;
+  std::vector<AnimationDocument> animation;
 
   template <class Visitor>
   static constexpr void describe(Visitor&& field) {
@@ -36,6 +38,8 @@ struct SceneDocument {
     field("objects", &D::objects, unit::none, any_number(),
           "what light meets, in the file's order");
     field("render", &D::render, unit::none, any_number(), "how the picture is made");
+    field("animation", &D::animation, unit::none, any_number(),
+          "values that change from frame to frame");
   }
 };
 

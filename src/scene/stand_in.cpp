@@ -26,11 +26,6 @@ struct View {
   Bounds fog;
 };
 
-/// Whether a path is that of a value or of a part of it.
-bool is_within(const std::string& path, const std::string& whole) {
-  return path == whole || path.starts_with(whole + ".");
-}
-
 std::string exact(Vec v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
 /// For a sentence.
@@ -96,44 +91,43 @@ std::string fog_table(const Bounds& box) {
 
 }  // namespace
 
-StandIn stand_in_for(const Model& model, const std::string& file) {
+StandIn::StandIn(const Model& model, const std::string& file) {
   const View view = view_of(model);
-  StandIn result;
   // A bright sky for the windows of a room; behind a thing a dim one, before which lit fog shows.
-  result.toml = view.is_room ? "background = [0.9, 1.05, 1.3]\nambient = [0.1, 0.105, 0.12]\n"
-                             : "background = [0.04, 0.05, 0.07]\nambient = [0.1, 0.11, 0.13]\n";
+  sky_ = view.is_room ? "background = [0.9, 1.05, 1.3]\nambient = [0.1, 0.105, 0.12]\n"
+                      : "background = [0.04, 0.05, 0.07]\nambient = [0.1, 0.11, 0.13]\n";
   // Few shafts make much noise: more samples than where a scene file says how many.
-  result.toml += "[render]\nspp = 128\n";
-  if (model.camera) {
-    result.toml += camera_table(*model.camera);
-  } else {
-    result.toml += camera_table(view.camera);
-    result.assumed.push_back(
-        {{"camera.position"},
-         fmt::format("a camera {} at {}", view.is_room ? "in the room" : "outside",
-                     text(view.camera.position))});
-  }
+  sky_ += "[render]\nspp = 128\n";
+  camera_ = camera_table(view.camera);
+  if (!model.camera)
+    assumed_.push_back({{"camera.position"},
+                        fmt::format("a camera {} at {}", view.is_room ? "in the room" : "outside",
+                                    text(view.camera.position))});
+  sun_ = sun_table(view);
   if (model.lights.empty()) {
-    result.toml += sun_table(view);
     const std::string direction = "lights.0.direction";
-    result.assumed.push_back({{"lights.0.azimuth", direction},
-                              fmt::format("a sun at azimuth {:.0f}", view.sun.azimuth)});
-    result.assumed.push_back({{"lights.0.elevation", direction},
-                              fmt::format("a sun at elevation {:.0f}", view.sun.elevation)});
+    assumed_.push_back({{"lights.0.azimuth", direction},
+                        fmt::format("a sun at azimuth {:.0f}", view.sun.azimuth)});
+    assumed_.push_back({{"lights.0.elevation", direction},
+                        fmt::format("a sun at elevation {:.0f}", view.sun.elevation)});
   }
-  for (const Directional& light : model.lights) result.toml += light_table(light);
-  result.toml += fog_table(view.fog);
-  result.assumed.push_back(
-      {{"media.0.shape"},
-       fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max))});
-  result.assumed.push_back({{"background", "ambient"}, "light of the sky"});
-  result.toml += fmt::format("[[objects]]\ntype = \"mesh\"\nfile = '''{}'''\n", file);
-  return result;
+  assumed_.push_back({{"media.0.shape"},
+                      fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max))});
+  assumed_.push_back({{"background", "ambient"}, "light of the sky"});
+  rest_ =
+      fog_table(view.fog) + fmt::format("[[objects]]\ntype = \"mesh\"\nfile = '''{}'''\n", file);
+}
+
+std::string StandIn::toml(const Model& now) const {
+  std::string toml = sky_ + (now.camera ? camera_table(*now.camera) : camera_);
+  if (now.lights.empty()) toml += sun_;
+  for (const Directional& light : now.lights) toml += light_table(light);
+  return toml + rest_;
 }
 
 std::string StandIn::remark(const std::vector<Override>& changes) const {
   std::vector<std::string> texts;
-  for (const Assumption& assumption : assumed) {
+  for (const Assumption& assumption : assumed_) {
     const bool is_changed = std::ranges::any_of(changes, [&](const Override& change) {
       return std::ranges::any_of(assumption.paths, [&](const std::string& path) {
         return is_within(change.path, path) || is_within(path, change.path);

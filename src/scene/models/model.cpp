@@ -9,8 +9,9 @@
 #include "scene/models/obj.h"
 
 namespace airlight {
+namespace {
 
-Model load_model(const std::filesystem::path& path) {
+std::variant<Model, MovingModel> read(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
@@ -19,5 +20,21 @@ Model load_model(const std::filesystem::path& path) {
   throw Error(
       fmt::format("{}: \"{}\" is no model file; .obj, .gltf, .glb", path.string(), extension));
 }
+
+}  // namespace
+
+ModelFile::ModelFile(const std::filesystem::path& path) : content_(read(path)) {}
+
+Model ModelFile::at(double seconds) const& {
+  const auto* moving = std::get_if<MovingModel>(&content_);
+  return moving ? (*moving)(seconds) : std::get<Model>(content_);
+}
+
+Model ModelFile::at(double seconds) && {
+  const auto* moving = std::get_if<MovingModel>(&content_);
+  return moving ? (*moving)(seconds) : std::get<Model>(std::move(content_));
+}
+
+Model load_model(const std::filesystem::path& path) { return ModelFile(path).at(0); }
 
 }  // namespace airlight

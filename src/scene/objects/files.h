@@ -1,15 +1,34 @@
 #pragma once
 #include <filesystem>
-#include <functional>
+#include <map>
+#include <memory>
 
 #include "scene/models/model.h"
 
 namespace airlight {
 
-/// Where the files are that a scene file names, and how models among them are loaded.
+/// Files that are read once and asked for often, by their paths.
+struct FileCache {
+  std::map<std::filesystem::path, ModelFile> models;
+  std::map<std::filesystem::path, Texture> textures;
+};
+
+/// The files that a scene file names, at a moment of its animation.
 struct Files {
   std::filesystem::path folder;  ///< relative paths start here
-  std::function<Model(const std::filesystem::path&)> model = load_model;
+  double seconds = 0;            ///< when models that move are looked at
+  bool keep = false;             ///< for the next frame; else every file is handed over
+  std::shared_ptr<FileCache> cache = std::make_shared<FileCache>();
+
+  /// A model file, which stays in the cache until its model is handed over. Throws Error if it
+  /// cannot be read or is broken.
+  const ModelFile& open(const std::filesystem::path& file) const;
+
+  /// Its model. Throws Error.
+  Model model(const std::filesystem::path& file) const;
+
+  /// A picture. Throws Error.
+  Texture texture(const std::filesystem::path& file) const;
 };
 
 }  // namespace airlight

@@ -8,9 +8,8 @@ namespace airlight {
 namespace {
 
 /// Adds a picture to the parts' textures; returns its index.
-int add_texture(Parts& parts, const std::string& file, const Cursor& at,
-                const std::filesystem::path& folder) {
-  parts.textures.push_back(named_texture(file, at, folder));
+int add_texture(Parts& parts, const std::string& file, const Cursor& at, const Files& files) {
+  parts.textures.push_back(named_texture(file, at, files));
   return int(parts.textures.size()) - 1;
 }
 
@@ -38,13 +37,12 @@ void PlacedObject::place(Parts& parts, const char* kind) const {
   }
 }
 
-void SurfacedObject::paint(Parts& parts, const Cursor& at,
-                           const std::filesystem::path& folder) const {
+void SurfacedObject::paint(Parts& parts, const Cursor& at, const Files& files) const {
   std::optional<int> albedo_index, opacity_index;
   if (albedo_texture)
-    albedo_index = add_texture(parts, *albedo_texture, at.at_or_here("albedo_texture"), folder);
+    albedo_index = add_texture(parts, *albedo_texture, at.at_or_here("albedo_texture"), files);
   if (opacity_texture) {
-    opacity_index = add_texture(parts, *opacity_texture, at.at_or_here("opacity_texture"), folder);
+    opacity_index = add_texture(parts, *opacity_texture, at.at_or_here("opacity_texture"), files);
     parts.textures[std::size_t(*opacity_index)].srgb = false;  // opacity is no colour
   }
   for (Object& object : parts.objects) {

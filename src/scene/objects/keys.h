@@ -2,11 +2,11 @@
 #include <airlight/describe.h>
 #include <airlight/math/vec.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "scene/cursor.h"
+#include "scene/objects/files.h"
 #include "scene/objects/parts.h"
 #include "scene/required.h"
 
@@ -63,9 +63,9 @@ struct SurfacedObject : PlacedObject {
     field("tint", &O::tint, unit::one, closed(0, 1), "colours the light it lets through");
   }
 
-  /// Gives the parts what the keys say; what they do not say stays. Textures are looked for in
-  /// `folder`. Throws Error for one that cannot be read.
-  void paint(Parts& parts, const Cursor& at, const std::filesystem::path& folder) const;
+  /// Gives the parts what the keys say; what they do not say stays. Throws Error for a texture that
+  /// cannot be read.
+  void paint(Parts& parts, const Cursor& at, const Files& files) const;
 };
 
 }  // namespace airlight

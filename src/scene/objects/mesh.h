@@ -1,5 +1,4 @@
 #pragma once
-#include "scene/objects/files.h"
 #include "scene/objects/keys.h"
 
 namespace airlight {

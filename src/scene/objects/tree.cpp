@@ -1,7 +1,6 @@
 #include "scene/objects/tree.h"
 
-#include <airlight/math/random.h>
-
+#include "scene/dice.h"
 #include "scene/direction.h"
 #include "scene/objects/build.h"
 #include "scene/rotation.h"
@@ -10,18 +9,6 @@ namespace airlight {
 namespace {
 
 using Vec = Vec3<double>;
-
-/// Numbers in [0, 1), the same on every machine.
-class Dice {
- public:
-  explicit Dice(std::uint32_t seed) : state_(mix_bits(seed + 0x9e3779b9u)) {}
-
-  double operator()() { return double(mix_bits(state_ += 0x9e3779b9u)) * 0x1p-32; }
-  double between(double low, double high) { return low + (high - low) * (*this)(); }
-
- private:
-  std::uint32_t state_;
-};
 
 /// A cone cut at both ends, open, between two points.
 void add_limb(Mesh& mesh, Vec from, Vec to, double radius_from, double radius_to) {

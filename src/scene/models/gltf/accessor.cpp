@@ -62,13 +62,16 @@ const std::byte* locate(const Document& document, int buffer_view, std::size_t o
 }
 
 const char* name_of(int type) {
-  return type == TINYGLTF_TYPE_SCALAR ? "SCALAR" : type == TINYGLTF_TYPE_VEC2 ? "VEC2" : "VEC3";
+  return type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
+         : type == TINYGLTF_TYPE_VEC2 ? "VEC2"
+         : type == TINYGLTF_TYPE_VEC3 ? "VEC3"
+                                      : "VEC4";
 }
 
 }  // namespace
 
-std::array<float, 3> Accessor::Elements::floats(std::size_t i) const {
-  std::array<float, 3> values{};
+std::array<float, 4> Accessor::Elements::floats(std::size_t i) const {
+  std::array<float, 4> values{};
   if (data == nullptr) return values;
   const std::byte* at = data + i * stride;
   const int size = tinygltf::GetComponentSizeInBytes(std::uint32_t(component_type));
@@ -146,7 +149,7 @@ bool Accessor::is_unsigned() const {
          elements_.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-std::array<float, 3> Accessor::floats(std::size_t i) const {
+std::array<float, 4> Accessor::floats(std::size_t i) const {
   return decoded_.empty() ? elements_.floats(i) : decoded_[i];
 }
 

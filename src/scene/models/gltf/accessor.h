@@ -20,7 +20,7 @@ class Accessor {
 
   /// Element i as numbers, the rest 0. Whole numbers are fractions of their range if the accessor
   /// says normalized.
-  std::array<float, 3> floats(std::size_t i) const;
+  std::array<float, 4> floats(std::size_t i) const;
 
   /// Element i of an accessor of unsigned whole numbers.
   std::uint32_t integer(std::size_t i) const;
@@ -37,13 +37,13 @@ class Accessor {
     int components = 1;
     bool normalized = false;
 
-    std::array<float, 3> floats(std::size_t i) const;
+    std::array<float, 4> floats(std::size_t i) const;
     std::uint32_t integer(std::size_t i) const;
   };
 
   Elements elements_;
   std::size_t size_ = 0;
-  std::vector<std::array<float, 3>> decoded_;  ///< of a sparse accessor
+  std::vector<std::array<float, 4>> decoded_;  ///< of a sparse accessor
   std::vector<std::uint32_t> decoded_integers_;
 };
 

@@ -44,8 +44,9 @@ class Checker {
 
   void check() const {
     if (!root_.value->is_object()) fail("the document", shown(*root_.value), "an object");
-    for (const char* list : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers",
-                             "images", "textures", "samplers", "materials", "cameras"})
+    for (const char* list :
+         {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "images", "textures",
+          "samplers", "materials", "cameras", "animations"})
       array(root_, list);
     asset();
     extensions();
@@ -61,6 +62,7 @@ class Checker {
     each(root_, "samplers", [&](const Place& p) { sampler(p); });
     each(root_, "materials", [&](const Place& p) { material(p); });
     each(root_, "cameras", [&](const Place& p) { camera(p); });
+    each(root_, "animations", [&](const Place& p) { animation(p); });
     if (const auto lights = extension(root_, "KHR_lights_punctual"))
       each(*lights, "lights", [&](const Place& p) { light(p); });
   }
@@ -333,6 +335,26 @@ class Checker {
     word(camera, "type", {"perspective", "orthographic"}, required);
     if (*member(camera, "type")->value != "perspective") return;
     number(*object(camera, "perspective", required), "yfov", 1e-3, 3.14, required);
+  }
+
+  void animation(const Place& animation) const {
+    const auto samplers = array(animation, "samplers", required);
+    each(animation, "samplers", [&](const Place& sampler) {
+      index(sampler, "input", "accessors", required);
+      index(sampler, "output", "accessors", required);
+      word(sampler, "interpolation", {"LINEAR", "STEP", "CUBICSPLINE"});
+    });
+    each(
+        animation, "channels",
+        [&](const Place& channel) {
+          in_list(*member(channel, "sampler", required), samplers->value->size(), "samplers");
+          const auto target = object(channel, "target", required);
+          index(*target, "node", "nodes");
+          text(*target, "path", required);
+          if (member(*target, "node"))
+            word(*target, "path", {"translation", "rotation", "scale", "weights"});
+        },
+        required);
   }
 
   void light(const Place& light) const {

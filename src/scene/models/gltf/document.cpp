@@ -66,6 +66,7 @@ Document read_document(const std::filesystem::path& path) {
           std::move(contents),
           parse_structure(json, file),
           list_images(json),
+          json.value("animations", Json::array()),
           std::move(buffers)};
 }
 

@@ -18,6 +18,7 @@ struct Document {
   std::vector<std::byte> contents;      ///< of the file; the binary chunk is a part of it
   tinygltf::Model model;                ///< without buffers, images, animations and skins
   std::vector<tinygltf::Image> images;  ///< only URI and buffer view
+  Json animations;                      ///< a list
   Buffers buffers;
 
   /// Bytes of a buffer view. Throws Error, `where` first, if its buffer does not have them.

@@ -104,7 +104,7 @@ const tinygltf::Light* light_of(const tinygltf::Model& model, const tinygltf::No
 
 }  // namespace
 
-std::vector<PlacedNode> place_nodes(const Document& document) {
+std::vector<PlacedNode> place_nodes(const Document& document, const Poses& poses) {
   const std::vector<int> parents = find_parents(document);
   check_acyclic(document, parents);
   std::vector<PlacedNode> waiting;
@@ -116,8 +116,10 @@ std::vector<PlacedNode> place_nodes(const Document& document) {
     PlacedNode next = waiting.back();
     waiting.pop_back();
     const tinygltf::Node& node = document.model.nodes[std::size_t(next.node)];
+    const auto posed = poses.find(next.node);
     next.to_world =
-        next.to_world * to_parent(node, fmt::format("{}: nodes[{}]", document.file, next.node));
+        next.to_world * to_parent(posed == poses.end() ? node : posed->second,
+                                  fmt::format("{}: nodes[{}]", document.file, next.node));
     placed.push_back(next);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, next.to_world});

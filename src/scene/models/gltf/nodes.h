@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "scene/affine.h"
-#include "scene/models/gltf/document.h"
+#include "scene/models/gltf/motion.h"
 #include "scene/models/model.h"
 
 namespace airlight::gltf {
@@ -15,8 +15,8 @@ struct PlacedNode {
 };
 
 /// The nodes of the document's default scene, or else the first, or else all, parents before
-/// children. Throws Error if a node is its own ancestor or has two parents.
-std::vector<PlacedNode> place_nodes(const Document& document);
+/// children, posed as told. Throws Error if a node is its own ancestor or has two parents.
+std::vector<PlacedNode> place_nodes(const Document& document, const Poses& poses);
 
 /// The first perspective camera among the nodes.
 std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes);

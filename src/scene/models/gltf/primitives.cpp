@@ -66,9 +66,9 @@ std::optional<Accessor> attribute(const Document& document, const tinygltf::Prim
   return Accessor(document, found->second, type, where + ".attributes." + name);
 }
 
-Vec3<double> vec3(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+Vec3<double> vec3(const std::array<float, 4>& v) { return {v[0], v[1], v[2]}; }
 
-std::array<float, 2> place(const std::array<float, 6>& map, const std::array<float, 3>& uv) {
+std::array<float, 2> place(const std::array<float, 6>& map, const std::array<float, 4>& uv) {
   const float u = map[0] * uv[0] + map[1] * uv[1] + map[2];
   const float v = map[3] * uv[0] + map[4] * uv[1] + map[5];
   return {u, 1 - v};  // ours points up
