@@ -223,4 +223,77 @@ TEST(Tree, has_leaves_with_holes) {
   EXPECT_LT(opaque, 0.6);
 }
 
+namespace {
+
+/// A shattered wall at a time: 3 m x 2 m x 0.2 m, broken about its middle.
+Mesh shattered(const std::string& time, const std::string& more = "") {
+  return mesh_of(
+      objects_of("type = \"shattered_wall\"\nwidth = 3\nheight = 2\nthickness = 0.2\n"
+                 "impact = [1.5, 1]\nradius = 0.8\npieces = 150\ntime = " +
+                 time + "\n" + more));
+}
+
+/// By the divergence theorem, for a closed skin that faces out.
+double volume_of(const Mesh& mesh) {
+  double volume = 0;
+  for (const auto& [i, j, k] : mesh.triangles)
+    volume += dot(Vec3<double>(mesh.positions[i]),
+                  cross(Vec3<double>(mesh.positions[j]), Vec3<double>(mesh.positions[k]))) /
+              6;
+  return volume;
+}
+
+}  // namespace
+
+TEST(ShatteredWall, stands_whole_until_the_blow) {
+  const Mesh before = shattered("-3"), at_blow = shattered("0");
+  EXPECT_EQ(before.positions, at_blow.positions);
+  const Bounds box = bounds_of({{"", before, {}}});
+  expect_near(box.min, {0, 0, -0.1});
+  expect_near(box.max, {3, 2, 0.1});
+}
+
+TEST(ShatteredWall, consists_of_closed_pieces_that_fill_it_and_keep_their_volume) {
+  for (const char* time : {"0", "0.1", "0.4", "5"}) {
+    const Mesh mesh = shattered(time);
+    EXPECT_TRUE(is_closed(mesh)) << time;
+    EXPECT_NEAR(volume_of(mesh), 3 * 2 * 0.2, 1e-5) << time;  // positions are floats
+  }
+}
+
+TEST(ShatteredWall, throws_pieces_forward_onto_the_floor_where_they_come_to_rest) {
+  const Mesh start = shattered("0"), soon = shattered("0.15"), late = shattered("20");
+  EXPECT_EQ(late.positions, shattered("30").positions);
+  int loose = 0;
+  for (std::size_t i = 0; i < start.positions.size(); ++i) {
+    const Vec3<double> from(start.positions[i]), to(late.positions[i]);
+    EXPECT_GT(late.positions[i].y, -1e-6);
+    EXPECT_GT(soon.positions[i].y, -1e-6);
+    if (length(to - from) == 0) continue;
+    ++loose;
+    EXPECT_GT(to.z, 0.1);
+    EXPECT_LT(to.y, 0.6) << "not at rest near the floor";
+    EXPECT_LT(length(from - Vec3<double>(1.5, 1, 0)), 1.3) << "far from the blow";
+  }
+  EXPECT_GT(loose, 300);
+}
+
+TEST(ShatteredWall, moves_without_jumps) {
+  // Thrown with less than 7 m/s, falling with less than 7, corners turning with less than 11.
+  Mesh before = shattered("0.0");
+  for (int i = 1; i <= 60; ++i) {
+    const Mesh now = shattered(std::to_string(i * 0.02));
+    double farthest = 0;
+    for (std::size_t k = 0; k < now.positions.size(); ++k)
+      farthest = std::max(farthest, length(Vec3<double>(now.positions[k] - before.positions[k])));
+    EXPECT_LT(farthest, 0.02 * 25) << i;
+    before = now;
+  }
+}
+
+TEST(ShatteredWall, breaks_otherwise_for_another_seed) {
+  EXPECT_EQ(shattered("0.3").positions, shattered("0.3").positions);
+  EXPECT_NE(shattered("0.3").positions, shattered("0.3", "seed = 1\n").positions);
+}
+
 }  // namespace airlight

@@ -142,7 +142,7 @@ double lit_part(const Model& model, const Scene& scene) {
 
 TEST(StandIn, shows_shafts_of_light_in_a_room_with_one_small_window) {
   const Model model = room_with_skylight();
-  const Scene scene = scene_of(stand_in_for(model, "room.obj"));
+  const Scene scene = scene_of(StandIn(model, "room.obj"), model);
   EXPECT_GT(lit_part(model, scene), 0.03);
   EXPECT_LT(lit_part(model, scene), 0.7);
 }
@@ -150,10 +150,10 @@ TEST(StandIn, shows_shafts_of_light_in_a_room_with_one_small_window) {
 TEST(StandIn, turns_a_model_s_camera_s_sun_and_a_model_s_sun_s_camera_to_the_shafts) {
   Model with_camera = room();
   with_camera.camera = Camera{{1, 1.5, 3.8}, {3, 1.5, 2}, {0, 1, 0}, 50};
-  EXPECT_GT(lit_part(with_camera, scene_of(stand_in_for(with_camera, "room.obj"))), 0.03);
+  EXPECT_GT(lit_part(with_camera, scene_of(StandIn(with_camera, "room.obj"), with_camera)), 0.03);
   Model with_sun = room();
   with_sun.lights.push_back(Directional{{1, 2, 3}, normalize(Vec3<double>{-1, -0.5, 0.2}), 0.5});
-  EXPECT_GT(lit_part(with_sun, scene_of(stand_in_for(with_sun, "room.obj"))), 0.03);
+  EXPECT_GT(lit_part(with_sun, scene_of(StandIn(with_sun, "room.obj"), with_sun)), 0.03);
 }
 
 TEST(StandIn, keeps_the_camera_and_the_lights_of_a_model) {

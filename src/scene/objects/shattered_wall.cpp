@@ -114,6 +114,11 @@ double depth_below(const Pose& pose, const std::vector<Vec>& corners) {
   return -lowest;
 }
 
+/// How long something thrown upwards takes to a place that lies lower.  [s]
+double fall_time(double upwards, double drop) {
+  return (upwards + std::sqrt(upwards * upwards + 2 * gravity * drop)) / gravity;
+}
+
 /// A loose piece some time after the blow: it flies as it was thrown, turning evenly so that it
 /// meets the floor nearly flat, and slides until friction has stopped it.
 Pose fly(const ShatteredWallObject& wall, Point middle, const std::vector<Vec>& corners,
@@ -127,17 +132,17 @@ Pose fly(const ShatteredWallObject& wall, Point middle, const std::vector<Vec>& 
 
   Pose pose{.middle = {middle.x, middle.y, 0}};
   pose.axis = normalize(Vec{1, dice.between(-0.25, 0.25), dice.between(-0.25, 0.25)});
-  const double half_turns = std::floor(dice.between(0, 1 + wall.speed / 3));
+  const double half_turns = std::floor(dice.between(0, 1 + 3 * fall_time(velocity.y, middle.y)));
   const double final_angle = (away.y > 0 ? 1 : -1) * pi * (0.5 + half_turns);
   const double since = wall.time - part * wall.radius / (crack_speed * wall.speed);
   if (since <= 0) return pose;
 
   pose.angle = final_angle;
-  const double drop = std::max(0., middle.y - depth_below(pose, corners));
+  // Even from a place just above the floor it takes a moment to fall over.
   const double landing =
-      (velocity.y + std::sqrt(velocity.y * velocity.y + 2 * gravity * drop)) / gravity;
+      std::max(0.2, fall_time(velocity.y, std::max(0., middle.y - depth_below(pose, corners))));
   const double flight = std::min(since, landing);
-  pose.angle = landing > 0 ? final_angle * flight / landing : final_angle;
+  pose.angle = final_angle * flight / landing;
   pose.middle = pose.middle + velocity * flight;
   pose.middle.y -= 0.5 * gravity * flight * flight;
 
