@@ -286,6 +286,23 @@ TEST(SceneFile, reads_models_and_pictures_once) {
   EXPECT_EQ(std::get<Mesh>(scene.objects.at(0).geometry).positions.at(1).x, 2);
 }
 
+TEST(SceneFile, takes_the_plate_of_each_frame) {
+  const Folder folder;
+  write_bytes(folder / "film.toml",
+              "background_image = \"plate.##.pfm\"\n[image]\nwidth = 1\n"
+              "height = 1\n");
+  const std::string header = "PF\n1 1\n-1\n";
+  const float dark[] = {0, 0, 0}, bright[] = {2, 2, 2};
+  write_bytes(folder / "plate.00.pfm",
+              header + std::string(reinterpret_cast<const char*>(dark), sizeof dark));
+  write_bytes(folder / "plate.12.pfm",
+              header + std::string(reinterpret_cast<const char*>(bright), sizeof bright));
+  const SceneFile file(folder / "film.toml");
+  EXPECT_EQ(file.scene(0).background_image.pixels.at(0), 0);
+  EXPECT_EQ(file.scene(12).background_image.pixels.at(0), 2);
+  EXPECT_THROW(file.scene(1), Error);
+}
+
 TEST(SceneFile, finds_bad_values_of_a_later_frame_without_building_it) {
   const Folder folder;
   write_bytes(folder / "film.toml", zoom("frames = [0, 4]\nvalues = [20, 220]\n") +

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "image/numbered.h"
 #include "scene/background_image.h"
 #include "scene/camera.h"
 #include "scene/reader.h"
@@ -65,9 +66,9 @@ Scene scene_of(const Value& value, const Files& files) {
   scene.resolution = document.image;
   scene.background = document.background;
   if (document.background_image)
-    scene.background_image =
-        load_background_image(files.folder / *document.background_image, scene.resolution,
-                              at.at_or_here("background_image"));
+    scene.background_image = load_background_image(
+        files.folder / numbered(*document.background_image, document.render.frame),
+        scene.resolution, at.at_or_here("background_image"));
   scene.ambient = document.ambient;
   scene.render = document.render;
   check_camera(scene.camera, at.at_or_here("camera"));

@@ -91,6 +91,31 @@ Point centroid(const Polygon& polygon) {
   return area > 0 ? Point{o.x + x / area, o.y + y / area} : o;
 }
 
+/// How far from the impact a point lies: 0 there, 1 on the rim of the hole, which is ragged about
+/// the wall's radius.
+class Part {
+ public:
+  Part(const ShatteredWallObject& wall, Dice& dice)
+      : impact_{wall.impact[0], wall.impact[1]}, radius_(wall.radius) {
+    for (double& phase : phases_) phase = dice.between(0, 2 * pi);
+  }
+
+  double operator()(Point p) const {
+    const Point away = p - impact_;
+    const double azimuth = std::atan2(away.y, away.x);
+    double rim = 1;
+    for (int k = 0; k < 3; ++k)
+      rim += amplitudes_[k] * std::sin((k + 2) * azimuth + phases_[std::size_t(k)]);
+    return distance(p, impact_) / (radius_ * rim);
+  }
+
+ private:
+  static constexpr double amplitudes_[] = {0.12, 0.08, 0.06};
+  Point impact_;
+  double radius_;
+  std::array<double, 3> phases_;
+};
+
 /// v turned about a unit axis by an angle in radians (Rodrigues).
 Vec turned(const Vec& v, const Vec& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -121,10 +146,9 @@ double fall_time(double upwards, double drop) {
 
 /// A loose piece some time after the blow: it flies as it was thrown, turning evenly so that it
 /// meets the floor nearly flat, and slides until friction has stopped it.
-Pose fly(const ShatteredWallObject& wall, Point middle, const std::vector<Vec>& corners,
-         Dice dice) {
+Pose fly(const ShatteredWallObject& wall, double part, Point middle,
+         const std::vector<Vec>& corners, Dice dice) {
   const Point away = middle - Point{wall.impact[0], wall.impact[1]};
-  const double part = std::sqrt(dot(away, away)) / wall.radius;  // 0 at the impact, 1 at the rim
   const double speed = wall.speed * (1 - 0.75 * part * part) * dice.between(0.75, 1.25);
   const Vec aside{away.x / wall.radius, away.y / wall.radius, 0};
   const Vec jitter{dice.between(-0.2, 0.2), dice.between(-0.1, 0.3), dice.between(-0.2, 0.2)};
@@ -187,6 +211,7 @@ Parts ShatteredWallObject::build(const Cursor&) const {
   Dice dice{std::uint32_t(seed)};
   const Point centre{impact[0], impact[1]};
   const std::vector<Point> points = scatter(*this, centre, dice);
+  const Part part(*this, dice);
   Mesh mesh;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Dice own{mix_bits(std::uint32_t(seed) ^ mix_bits(std::uint32_t(i)))};
@@ -196,9 +221,9 @@ Parts ShatteredWallObject::build(const Cursor&) const {
     std::vector<Vec> corners;  // relative to the middle: the back's, then the front's
     for (const double z : {-thickness / 2, thickness / 2})
       for (const Point& p : polygon) corners.push_back({p.x - middle.x, p.y - middle.y, z});
-    const bool is_loose = time > 0 && distance(middle, centre) < radius;
-    const Pose pose =
-        is_loose ? fly(*this, middle, corners, own) : Pose{.middle = {middle.x, middle.y, 0}};
+    const bool is_loose = time > 0 && part(middle) < 1;
+    const Pose pose = is_loose ? fly(*this, part(middle), middle, corners, own)
+                               : Pose{.middle = {middle.x, middle.y, 0}};
     add_piece(mesh, *this, polygon, middle, pose, corners);
   }
   return single_part(std::move(mesh));

@@ -32,7 +32,7 @@ struct ShatteredWallObject : SurfacedObject {
           "of the whole wall, smaller about the impact");
     field("impact", &O::impact, unit::metre, any_number(), "x and y of where the blow meets it");
     field("radius", &O::radius, unit::metre, above(0),
-          "about the impact, within which pieces come loose");
+          "about the impact, within which, more or less, pieces come loose");
     field("speed", &O::speed, unit::metre_per_second, above(0), "of the pieces about the impact");
     field("time", &O::time, unit::second, any_number(),
           "since the blow; up to 0 the wall is whole: the number to animate");
