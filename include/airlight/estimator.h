@@ -16,7 +16,8 @@ struct SampleRange {
   std::uint32_t count = 0;
 };
 
-/// A packet of camera rays and the part of each that lies in the medium.
+/// A packet of rays, from the camera or of a path that began there, and the part of each that lies
+/// in the medium.
 template <Real F>
 struct MediumRay {
   Vec3<F> origin;     ///< of the camera ray, in the world  [m]
@@ -25,7 +26,7 @@ struct MediumRay {
   F t_enter;          ///< [m]
   F t_max;         ///< the length inside, up to the surface or the exit; 0 where there is none  [m]
   Mask<F> active;  ///< lanes with t_max > 0
-  Rgb<F> dimmed{F(1)};      ///< what the medium lets pass between the camera and the entry
+  Rgb<F> dimmed{F(1)};      ///< what light at the entry is multiplied by on its way to the camera
   std::uint32_t index = 0;  ///< of the ray in its pixel
   bool filtered = false;    ///< whether glass or cut-outs may stand between the camera and t_max
 };
@@ -63,6 +64,10 @@ MediumRay<F> medium_ray(const CameraRay<F>& ray, const Space& space) noexcept {
 /// The streams of random numbers a pixel has; each light has its own.
 namespace stream {
 inline constexpr std::uint32_t camera = 0;
+/// How a path goes on: how far, in which direction, off a surface or through it, whether at all.
+inline constexpr std::uint32_t flight = 1, direction = 2, side = 3, roulette = 4;
+/// Which light's sample a path goes on from.
+inline constexpr std::uint32_t light = 5;
 constexpr std::uint32_t distance(int light) noexcept { return 8u + 4u * std::uint32_t(light); }
 constexpr std::uint32_t disc(int light) noexcept { return 9u + 4u * std::uint32_t(light); }
 constexpr std::uint32_t surface(int light) noexcept { return 10u + 4u * std::uint32_t(light); }

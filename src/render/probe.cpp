@@ -61,7 +61,7 @@ class LightProbe {
         whole_ray_(ray),
         light_(light),
         light_index_(light_index),
-        toward_(Sampled::toward(light, light_index, ray.index, sampler)),
+        toward_(Sampled::toward<double>(light, light_index, ray.index, sampler)),
         lit_(lit_part(light, medium_, space, ray)),
         ray_(lit_.ray),
         section_(lit_.space, ray_.entry, space.vector(toward_), ray_.t_max,
@@ -125,7 +125,8 @@ class LightProbe {
     return std::visit(
         [&](const Placement auto& place) {
           return place
-              .on(section_, Sampled::carried<double, channels>(medium_, light_, ray_.dimmed))
+              .on(section_,
+                  sampled->template carried<double, channels>(medium_, light_, ray_.dimmed))
               .pdf(t, length);
         },
         sampled->placement);

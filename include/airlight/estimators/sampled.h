@@ -13,7 +13,7 @@ namespace airlight::inline AIRLIGHT_ISA {
 template <Real F>
 struct WatchedSample {
   std::uint32_t index;
-  F t;                ///< from the camera  [m]
+  F t;                ///< from the origin of the ray  [m]
   F pdf;              ///< [1/m]
   Rgb<F> weight;      ///< transmittance over pdf  [m]
   Rgb<F> visibility;  ///< 0 to 1
@@ -27,6 +27,9 @@ struct Sampled {
   /// Intersects the shape at every sample instead of finding the way out once a ray: the plain
   /// march that the paper compares with.
   bool intersect_every_step = false;
+  /// Paths go on from the samples: all channels must then be drawn, also those that the light
+  /// lacks.
+  bool paths_go_on = false;
 
   static constexpr auto name = "sampled";
   static constexpr auto meaning = "samples along the camera ray: a placement and a form";
@@ -66,9 +69,9 @@ struct Sampled {
 
   /// Where light comes from when the way out of a camera ray is found: a wide disc gives every ray
   /// a direction of its own.
-  template <Real F, class L>
+  template <Real F, class L, DrawsPoints<F> Points>
   static Vec3<F> toward(const L& light, int light_index, std::uint32_t ray,
-                        const Sampler<F>& sampler) noexcept {
+                        const Points& sampler) noexcept {
     const Vec3<F> centre(light.toward());
     if (!(light.angular_diameter > narrow_disc)) return centre;
     return uniform_cap(centre, F(Scalar<F>(light.cap_height())),
@@ -78,21 +81,22 @@ struct Sampled {
   /// What a metre of the medium scatters, but for a factor that all channels share: it decides
   /// between them.
   template <Real F, int channels, class L>
-  static Channels<F, channels> carried(const Medium& medium, const L& light,
-                                       const Rgb<F>& dimmed) noexcept {
+  Channels<F, channels> carried(const Medium& medium, const L& light,
+                                const Rgb<F>& dimmed) const noexcept {
     Channels<F, channels> result;
     for (int c = 0; c < channels; ++c)
-      result[c] = F(Scalar<F>(medium.sigma_s[c] * light.irradiance[c])) * dimmed[c];
+      result[c] =
+          F(Scalar<F>(medium.sigma_s[c] * (paths_go_on ? 1 : light.irradiance[c]))) * dimmed[c];
     return result;
   }
 
   /// Adds the samples of one camera ray for one light. `channels` is 1 for a grey medium and 3
   /// otherwise; `watch` is told of every sample.
-  template <int channels, Real F, class Space, class L, AnswersVisibility<F> W, class Watch>
+  template <int channels, Real F, class Space, class L, DrawsPoints<F> Points,
+            AnswersVisibility<F> W, class Watch>
   void add(const Medium& medium, const Space& space, const L& light, int light_index,
            const MediumRay<F>& whole_ray, SampleRange samples, bool halve_by_ray,
-           const Sampler<F>& sampler, const W& world, Halves<F>& sums,
-           Watch&& watch) const noexcept {
+           const Points& sampler, const W& world, Halves<F>& sums, Watch&& watch) const noexcept {
     const auto lit = lit_part(light, medium, space, whole_ray);
     const MediumRay<F>& ray = lit.ray;
     if (!any(ray.active)) return;
@@ -100,7 +104,7 @@ struct Sampled {
     const bool wide = light.angular_diameter > narrow_disc;
     const F cap(Scalar<F>(light.cap_height()));
     const Vec3<F> centre(light.toward());
-    const Vec3<F> w = toward(light, light_index, ray.index, sampler);
+    const Vec3<F> w = toward<F>(light, light_index, ray.index, sampler);
 
     using Along = Section<F, channels, std::remove_cvref_t<decltype(lit.space)>>;
     Along section(lit.space, ray.entry, space.vector(w), ray.t_max,
@@ -115,8 +119,8 @@ struct Sampled {
     std::visit(
         [&](const Placement auto& place) {
           const auto placed = place.on(section, carried<F, channels>(medium, light, ray.dimmed));
-          const Stream<F> distances = sampler.stream(stream::distance(light_index));
-          const Stream<F> discs = sampler.stream(stream::disc(light_index));
+          const auto distances = sampler.stream(stream::distance(light_index));
+          const auto discs = sampler.stream(stream::disc(light_index));
           const auto draw = [&](std::uint32_t i) {
             Drawn<F> d;
             d.t = placed.sample(distances.one(i));
@@ -175,10 +179,11 @@ struct Sampled {
         form);
   }
 
-  template <int channels, Real F, class Space, class L, AnswersVisibility<F> W>
+  template <int channels, Real F, class Space, class L, DrawsPoints<F> Points,
+            AnswersVisibility<F> W>
   void add(const Medium& medium, const Space& space, const L& light, int light_index,
-           const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray,
-           const Sampler<F>& sampler, const W& world, Halves<F>& sums) const noexcept {
+           const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray, const Points& sampler,
+           const W& world, Halves<F>& sums) const noexcept {
     add<channels>(medium, space, light, light_index, ray, samples, halve_by_ray, sampler, world,
                   sums, [](const WatchedSample<F>&) {});
   }

@@ -67,14 +67,19 @@ class Stream {
 
   /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
   /// each interval of length 2^-k.
-  AIRLIGHT_INLINE F one(std::uint32_t index) const noexcept {
+  AIRLIGHT_INLINE F one(std::uint32_t index) const noexcept { return one_each(UInt<F>(index)); }
+  /// Of another index in each lane.
+  AIRLIGHT_INLINE F one_each(UInt<F> index) const noexcept {
     // reverse(index) is the van der Corput point; its scramble reverses it once more.
-    return scramble(UInt<F>(index), one_);
+    return scramble(index, one_);
   }
 
   /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
   AIRLIGHT_INLINE Vec2<F> two(std::uint32_t index) const noexcept {
-    const UInt<F> shuffled = owen_scramble(UInt<F>(index), shuffle_);
+    return two_each(UInt<F>(index));
+  }
+  AIRLIGHT_INLINE Vec2<F> two_each(UInt<F> index) const noexcept {
+    const UInt<F> shuffled = owen_scramble(index, shuffle_);
     return {scramble(shuffled, first_), scramble(reversed_sobol_second(shuffled), second_)};
   }
 
@@ -85,23 +90,67 @@ class Stream {
 
   UInt<F> shuffle_, one_, first_, second_;
 };
-
-/// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are
-/// independent.
+/// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
+/// each interval of length 2^-k. `hash` tells a stream from another. It is mixed again before it
+/// scrambles: the low bits, which decide the stratum, of one mix of h ^ a and of h ^ b are not
+/// independent over h.
 template <Real F>
-struct Sampler {
-  UInt<F> pixel_hash;  ///< of (seed, pixel), a lane a pixel
+AIRLIGHT_INLINE F stratified_point(UInt<F> index, UInt<F> hash) noexcept {
+  // reverse(index) is the van der Corput point; its scramble reverses it once more.
+  return unit_interval<F>(reverse_bits(laine_karras(index, mix_bits(hash))));
+}
 
-  /// The streams' hashes are mixed again before they scramble: the low bits, which decide the
-  /// stratum, of one mix of h ^ a and of h ^ b are not independent over h.
-  Stream<F> stream(std::uint32_t id) const noexcept {
-    return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))));
+/// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
+template <Real F>
+Vec2<F> stratified_pair(UInt<F> index, UInt<F> hash) noexcept {
+  const UInt<F> shuffled = owen_scramble(index, hash);
+  return {stratified_point<F>(shuffled, hash ^ UInt<F>(0x9e3779b9u)),
+          stratified_point<F>(reversed_sobol_second(shuffled), hash ^ UInt<F>(0x7f4a7c15u))};
+}
+/// The streams' hashes are mixed again before they scramble: the low bits, which decide the
+/// stratum, of one mix of h ^ a and of h ^ b are not independent over h.
+Stream<F> stream(std::uint32_t id) const noexcept {
+  return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))));
+}
+
+F one(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).one(index); }
+Vec2<F> two(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).two(index); }
+};
+
+/// The points of a packet of paths at one vertex of each. A lane knows its pixel, the number of its
+/// path and how far along it is, so a point is named by its stream alone: the index that an
+/// estimator asks for, always 0 of one sample, does not count. At the first vertex the points are
+/// the pixel's own.
+template <Real F>
+struct PathSampler {
+  UInt<F> pixel_hash;  ///< of (seed, pixel)
+  UInt<F> index;       ///< of the path in its pixel
+  UInt<F> vertex;      ///< segments of the path before this one
+
+  struct Points {
+    Stream<F> stream;
+    UInt<F> index;
+
+    F one(std::uint32_t) const noexcept { return stream.one_each(index); }
+    Vec2<F> two(std::uint32_t) const noexcept { return stream.two_each(index); }
+  };
+
+  Points stream(std::uint32_t id) const noexcept {
+    const UInt<F> here = UInt<F>(id) + vertex * UInt<F>(0x9e3779b9u);
+    return {Stream<F>(mix_bits(pixel_hash ^ mix_bits(here))), index};
   }
 
-  F one(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).one(index); }
-  Vec2<F> two(std::uint32_t index, std::uint32_t id) const noexcept {
-    return stream(id).two(index);
-  }
+  F one(std::uint32_t, std::uint32_t id) const noexcept { return stream(id).one(0); }
+  Vec2<F> two(std::uint32_t, std::uint32_t id) const noexcept { return stream(id).two(0); }
+};
+
+/// Where an estimator's random numbers come from: points in [0, 1) or in the square, by index and
+/// stream.
+template <class S, class F>
+concept DrawsPoints = requires(const S sampler) {
+  { sampler.stream(0u).one(0u) } -> std::same_as<F>;
+  { sampler.stream(0u).two(0u) } -> std::same_as<Vec2<F>>;
+  { sampler.two(0u, 0u) } -> std::same_as<Vec2<F>>;
 };
 
 /// The hash from which a pixel's samples follow.
