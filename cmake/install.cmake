@@ -23,6 +23,7 @@ set(public_headers
   scene/scene.h
   render/film.h
   render/film_layout.h
+  render/path_count.h
   render/probe.h
   render/render.h
   render/version.h

@@ -35,21 +35,22 @@ struct FreeFlight {
   /// A distance, which may lie beyond the end.  [m]
   F draw(F u) const noexcept {
     const ChannelPick<F, channels> pick(chance, u);
-    // Where nothing is extinguished it is farther than anything, yet finite.
-    return -log1p_minus(pick.u) / max(pick.of(sigma_t), F(1e-20f));
+    const F sigma = pick.of(sigma_t);
+    return select(sigma > F(0), -log1p_minus(pick.u) / max(sigma, F(1e-30f)), F(2 * far_away));
   }
 
-  /// The chance that `draw` lies beyond the end.
-  F chance_to_arrive() const noexcept {
+  /// The chance that `draw` does not lie beyond the end.
+  F chance_to_scatter() const noexcept {
     F sum(0);
-    for (int c = 0; c < channels; ++c) sum = fma(chance[c], exp(-sigma_t[c] * length), sum);
+    for (int c = 0; c < channels; ++c)
+      sum = fma(chance[c], one_minus_exp(sigma_t[c] * length), sum);
     return sum;
   }
 
   /// β' after scattering at a distance drawn.
   Rgb<F> scattered(F t) const noexcept {
     if constexpr (channels == 1)
-      return throughput * sigma_s * (F(1) / max(sigma_t[0], F(1e-20f)));
+      return throughput * sigma_s * reciprocal(sigma_t[0]);
     else {
       F pdf(0);
       for (int c = 0; c < channels; ++c)
@@ -67,8 +68,12 @@ struct FreeFlight {
   Rgb<F> arrived() const noexcept {
     if constexpr (channels == 1)
       return throughput;
-    else
-      return dimmed() * reciprocal(chance_to_arrive());
+    else {
+      F arriving(0);
+      for (int c = 0; c < channels; ++c)
+        arriving = fma(chance[c], exp(-sigma_t[c] * length), arriving);
+      return dimmed() * reciprocal(arriving);
+    }
   }
 
   /// β' at the end of a path that is never scattered.

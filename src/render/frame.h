@@ -6,9 +6,23 @@
 #include "geometry/parallel_shadows.h"
 #include "geometry/world.h"
 #include "render/film.h"
+#include "render/path_count.h"
 #include "scene/camera.h"
 
 namespace airlight {
+
+/// Whether a light's samples can be anywhere on a ray, so that a path may go on from them.
+inline bool paths_go_on_from(const Lights& light) noexcept {
+  return std::holds_alternative<Directional>(light);
+}
+
+/// How light that scatters more than once is followed.
+struct PathSettings {
+  int max_depth = 1;  ///< scattering in the medium and bounces off surfaces that are followed, >= 1
+  /// Lights from whose samples paths go on; 0: from a free flight of their own.
+  int sample_sources = 0;
+  SurfaceSums surface = SurfaceSums::split;
+};
 
 /// Everything a kernel needs of a scene, prepared once a picture. It refers to the scene and the
 /// world.
@@ -17,6 +31,7 @@ struct Frame {
   const World& world;
   CameraFrame camera;
   Estimators estimator;
+  PathSettings paths = {};
   PixelFilter filter = PixelFilter::tent;
   bool through_centre = false;  ///< every sample of a pixel shares the ray through its centre
   /// Samples that a camera ray is traced for; where all share one, what is taken of it at a time.
@@ -41,6 +56,7 @@ struct Tile {
   SampleRange samples;
   Film& film;
   std::int64_t rejected = 0;  ///< pixels whose sums were not finite and were left out
+  PathCount paths = {};       ///< of max_depth above 1
 };
 
 }  // namespace airlight

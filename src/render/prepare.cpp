@@ -70,6 +70,48 @@ Estimators estimator_for(const RenderSettings& settings) {
   return *estimator;
 }
 
+namespace {
+
+/// Paths start from an estimator that samples, and go on from it if asked.
+void check_paths(const Estimators& estimator, const RenderSettings& settings) {
+  if (settings.max_depth == 1) return;
+  const auto* sampled = std::get_if<Sampled>(&estimator);
+  if (!sampled)
+    throw Error(fmt::format(
+        "render.max_depth = {}: estimator {} knows light that scatters once; accepted: 1, or an "
+        "estimator that samples, such as rewv",
+        settings.max_depth, settings.estimator));
+  if (sampled->intersect_every_step)
+    throw Error(fmt::format(
+        "render.max_depth = {}: edges = \"per_step\" is the plain march of light that scatters "
+        "once; accepted: 1, or edges = \"cached\"",
+        settings.max_depth));
+  const bool mixed = std::holds_alternative<Mixed>(sampled->placement);
+  const bool whole = std::holds_alternative<WholeVolume>(sampled->placement);
+  const bool fits = settings.continuation == Continuation::distance || whole ||
+                    (settings.continuation == Continuation::mix && mixed);
+  if (!fits)
+    throw Error(fmt::format(
+        "render.continuation = \"{}\" goes on from samples of whole_volume, which estimator {} "
+        "does "
+        "not draw; accepted: \"distance\", or an estimator such as rewv or mcwvds",
+        settings.continuation == Continuation::mix ? "mix" : "whole_volume", settings.estimator));
+}
+
+/// The estimator of a path's segments: the samples from which paths go on come from the mixture.
+Estimators estimator_of_paths(Estimators estimator, const RenderSettings& settings) {
+  auto* sampled = std::get_if<Sampled>(&estimator);
+  if (!sampled || settings.max_depth == 1 || settings.continuation == Continuation::distance)
+    return estimator;
+  sampled->paths_go_on = true;
+  if (settings.continuation == Continuation::mix &&
+      !std::holds_alternative<Mixed>(sampled->placement))
+    sampled->placement = Mixed{};
+  return estimator;
+}
+
+}  // namespace
+
 void check_settings(const Scene& scene, const RenderSettings& settings) {
   const Estimators estimator = estimator_for(settings);
   kernel_of(estimator, settings.isa);
@@ -91,6 +133,7 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
         "the background's picture has {} x {} pixels of {} channels; accepted: {} x {} of 3",
         image.width, image.height, image.channels, scene.resolution.width,
         scene.resolution.height));
+  check_paths(estimator, settings);
   if (!scene.medium) return;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (const char* reason =
@@ -128,7 +171,7 @@ std::vector<int> light_group_indices(const Scene& scene) {
 
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings) {
   check_settings(scene, settings);
-  const Estimators estimator = estimator_for(settings);
+  const Estimators estimator = estimator_of_paths(estimator_for(settings), settings);
   Frame frame{.scene = scene,
               .world = world,
               .camera = camera_frame(scene.camera, scene.resolution),
@@ -136,7 +179,12 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   if (std::holds_alternative<ClosedForm>(estimator))
     for (const Lights& light : scene.lights)
       std::visit([&](const auto& l) { frame.shadows.push_back(shadows_of(scene, l)); }, light);
+  frame.paths = {.max_depth = int(settings.max_depth), .surface = settings.surface};
+  if (settings.continuation != Continuation::distance)
+    frame.paths.sample_sources = int(std::ranges::count_if(scene.lights, paths_go_on_from));
   frame.layout = film_layout(scene, estimator);
+  // What the sky and surfaces send into the medium is no part of a ratio.
+  if (settings.max_depth > 1) frame.layout.plain = true;
   frame.light_group = light_group_indices(scene);
   frame.filter = settings.filter;
   // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all

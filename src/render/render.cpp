@@ -97,8 +97,9 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
               result.film};
     prepared.kernel.render(prepared.frame, tile);
     rejected += tile.rejected;
-    if (!control.on_progress) return;
     const std::scoped_lock lock(reporting);
+    result.paths += tile.paths;
+    if (!control.on_progress) return;
     sample_tiles_done += samples.count;
     progress.fraction =
         double(sample_tiles_done) / (double(columns) * rows * double(prepared.samples.count));

@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "render/film.h"
+#include "render/path_count.h"
 
 namespace airlight {
 
@@ -35,7 +36,8 @@ struct Rendered {
   std::int64_t samples = 0;  ///< a pixel, in the passes that were finished
   bool complete = true;      ///< false if a limit or a stop cut it short
   std::int64_t rejected =
-      0;  ///< pixel sums that were not finite and were left out; a defect if not 0
+      0;                 ///< pixel sums that were not finite and were left out; a defect if not 0
+  PathCount paths = {};  ///< of max_depth above 1
 };
 
 /// A scene made ready for rays; renders it as often as asked. The scene must outlive it.

@@ -3,7 +3,7 @@
 /// the background.
 #include <span>
 
-#include "render/frame.h"
+#include "render/surface_light.h"
 
 namespace airlight {
 
@@ -13,7 +13,7 @@ class SurfaceWalk {
   /// `radiance`: room for one colour a light group.
   SurfaceWalk(const Frame& frame, const Medium* medium, const Space& space,
               const Sampler<F>& sampler, std::span<Rgb<F>> radiance) noexcept
-      : radiance(radiance), frame_(frame), medium_(medium), space_(space), sampler_(sampler) {
+      : radiance(radiance), frame_(frame), surfaces_(frame, medium, space, sampler) {
     for (Rgb<F>& group : radiance) group = {};
   }
 
@@ -39,16 +39,16 @@ class SurfaceWalk {
       const Hit<F> hit = frame_.world.template closest<F>(origin, direction, t, active);
       const Mask<F> found = hit.found & active;
       const F t_next = select(found, hit.t, F(far_away));
-      const Rgb<F> glow = filter * emitted(inside, t, t_next);
+      const Rgb<F> glow = filter * surfaces_.emitted(inside, t, t_next);
       emission = select(active, emission + glow, emission);
-      const Rgb<F> dim = filter * attenuation(inside, t_next);
+      const Rgb<F> dim = filter * surfaces_.attenuation(inside, t_next);
       uncovered = select(active & !found, uncovered + dim, uncovered);
       through = select(active, dim, through);
       if (!any(found)) break;
 
-      const Crossing at = crossing(hit, bits<F>(found), direction);
+      const Crossing<F> at = surfaces_.crossing(hit, found, origin, direction);
       uncovered = select(found, uncovered + dim * at.uncovered, uncovered);
-      shade(at, dim, origin, direction, hit.t, samples, found);
+      shade(at, dim, samples, found);
       if (first) {
         albedo = select(found, at.albedo, albedo);
         normal = select(found, at.normal, normal);
@@ -71,147 +71,26 @@ class SurfaceWalk {
   /// Behind so many sheets of glass or leaves nothing is looked for any more.
   static constexpr int most_crossings = 128;
 
-  /// A packet's surfaces.
-  struct Crossing {
-    Vec3<F> normal, geometric;  ///< towards the viewer
-    Rgb<F> albedo;              ///< times opacity; black in holdouts, which the camera does not see
-    Rgb<F> filter;              ///< what the surface lets through
-    F object;                   ///< 1 + index
-    F uncovered;                ///< the opacity of a holdout; 0 of other surfaces
-  };
-
-  Crossing crossing(const Hit<F>& hit, std::uint32_t found, Vec3<F> direction) const noexcept {
-    alignas(64) Scalar<F> values[14][lanes<F>] = {};
-    for (int i = 0; i < lanes<F>; ++i) {
-      if (!((found >> i) & 1u)) continue;
-      const auto k = std::size_t(i);
-      const SurfacePoint s =
-          frame_.world.surface(hit.object[k], hit.primitive[k], hit.u[k], hit.v[k]);
-      const float holdout = s.holdout ? s.opacity : 0;
-      const float own = s.opacity - holdout;
-      const float numbers[14] = {s.normal.x,           s.normal.y,
-                                 s.normal.z,           s.geometric_normal.x,
-                                 s.geometric_normal.y, s.geometric_normal.z,
-                                 s.albedo.r * own,     s.albedo.g * own,
-                                 s.albedo.b * own,     s.transmittance.r,
-                                 s.transmittance.g,    s.transmittance.b,
-                                 float(s.object + 1),  holdout};
-      for (int j = 0; j < 14; ++j) values[j][i] = numbers[j];
-    }
-    const auto at = [&](int j) { return load<F>(values[j]); };
-    Crossing c;
-    c.geometric = Vec3<F>(at(3), at(4), at(5));
-    c.geometric = select(dot(c.geometric, direction) > F(0), -c.geometric, c.geometric);
-    c.normal = Vec3<F>(at(0), at(1), at(2));
-    c.normal = select(dot(c.normal, c.geometric) < F(0), -c.normal, c.normal);
-    c.albedo = Rgb<F>(at(6), at(7), at(8));
-    c.filter = Rgb<F>(at(9), at(10), at(11));
-    c.object = at(12);
-    c.uncovered = at(13);
-    return c;
-  }
-
   void add(int group, const Rgb<F>& light, Mask<F> where) noexcept {
     Rgb<F>& sum = radiance[std::size_t(group)];
     sum = select(where, sum + light, sum);
   }
 
   /// Adds the diffuse reflection of every light and of the ambient radiance, towards the camera, of
-  /// which `dim` arrives there; the medium dims light on its way in (Velinov 2021 Eq. 1 with a
-  /// Lambertian surface).  [W/(m² sr)]
-  void shade(const Crossing& at, const Rgb<F>& dim, Vec3<F> origin, Vec3<F> direction, F t,
-             SampleRange samples, Mask<F> found) noexcept {
+  /// which `dim` arrives there.  [W/(m² sr)]
+  void shade(const Crossing<F>& at, const Rgb<F>& dim, SampleRange samples,
+             Mask<F> found) noexcept {
     found = found & ((at.albedo.r + at.albedo.g + at.albedo.b) > F(0));
     if (!any(found)) return;  // black
-    const Rgb<F> reflected = dim * at.albedo;
     if (frame_.scene.ambient != Rgb<double>())
-      add(Frame::ungrouped, reflected * Rgb<F>(frame_.scene.ambient), found);
-    const Vec3<F> p = origin + direction * t;
-    // Shadow rays start a little off the surface: the hit is known to a few roundings of its
-    // coordinates.
-    const F lift = F(2e-5) * (abs(p.x) + abs(p.y) + abs(p.z) + t);
-    const Vec3<F> from = p + at.geometric * lift;
-    const Rgb<F> lambert = reflected * F(1 / pi);
-    for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
-      std::visit(
-          [&](const auto& light) {
-            add(frame_.light_group[std::size_t(i)],
-                lambert * irradiance(light, i, at, p, from, samples, found), found);
-          },
-          frame_.scene.lights[std::size_t(i)]);
-  }
-
-  /// Of a beam at the point p.  [W/m²]
-  Rgb<F> irradiance(const Collimated& beam, int light_index, const Crossing& at, Vec3<F> p,
-                    Vec3<F> from, SampleRange, Mask<F> found) const noexcept {
-    const Vec3<F> toward(beam.toward());
-    const Mask<F> struck = found & beam.contains(p);
-    if (!any(struck)) return {};
-    return arriving(toward, beam.reach(from), light_index, at, p, from, struck) *
-           Rgb<F>(beam.irradiance);
-  }
-
-  /// Of light at the point p, whose shadow rays start at `from`: the mean over the samples of the
-  /// camera ray. Directions to a disc belong to samples by their numbers, so that ranges of samples
-  /// add up to the whole.  [W/m²]
-  Rgb<F> irradiance(const Directional& light, int light_index, const Crossing& at, Vec3<F> p,
-                    Vec3<F> from, SampleRange samples, Mask<F> found) const noexcept {
-    if (!(light.angular_diameter > 0))
-      return arriving(Vec3<F>(light.toward()), F(far_away), light_index, at, p, from, found) *
-             Rgb<F>(light.irradiance);
-    Rgb<F> sum;
-    const std::uint32_t end = samples.first + samples.count;
-    for (std::uint32_t i = samples.first; i < end;) {
-      const std::uint32_t index = i / frame_.samples_per_surface_ray;
-      const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_surface_ray);
-      const Vec3<F> w = uniform_cap(Vec3<F>(light.toward()), F(Scalar<F>(light.cap_height())),
-                                    sampler_.two(index, stream::surface(light_index)));
-      sum += arriving(w, F(far_away), light_index, at, p, from, found) * F(Scalar<F>(stop - i));
-      i = stop;
-    }
-    return sum * Rgb<F>(light.irradiance) * F(Scalar<F>(1. / samples.count));
-  }
-
-  /// The part of the light from w, where it starts `reach` away, that the surface receives: cosine,
-  /// shadows, fog.
-  Rgb<F> arriving(Vec3<F> w, F reach, int light_index, const Crossing& at, Vec3<F> p, Vec3<F> from,
-                  Mask<F> found) const noexcept {
-    const F cosine = max(dot(at.normal, w), F(0));
-    const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
-    if (!any(faces)) return {};
-    Rgb<F> part = frame_.world.transmit(from, w, reach, light_index, faces) * cosine;
-    if (medium_) {
-      const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(p), space_.vector(w)});
-      part *= extinguished(max(min(chord.t_exit, reach) - chord.t_enter, F(0)));
-    }
-    return select(faces, part, Rgb<F>());
-  }
-
-  /// e^{−σ length}.
-  Rgb<F> extinguished(F length) const noexcept {
-    if (!medium_) return Rgb<F>(F(1));
-    return exp_minus(Rgb<F>(medium_->sigma_t) * length);
-  }
-
-  /// Of the medium between the camera and t.
-  Rgb<F> attenuation(Interval<F> inside, F t) const noexcept {
-    return extinguished(max(min(t, inside.t_exit) - inside.t_enter, F(0)));
-  }
-
-  /// ∫ j e^{−σ s} ds over the part of the medium between two distances, in closed form.
-  Rgb<F> emitted(Interval<F> inside, F from, F to) const noexcept {
-    if (!medium_ || medium_->emission == Rgb<double>()) return {};
-    const F begin = clamp(from, inside.t_enter, inside.t_exit);
-    const F length = clamp(to, inside.t_enter, inside.t_exit) - begin;
-    const Rgb<F> sigma(medium_->sigma_t);
-    const Rgb<F> mean(phi(sigma.r * length), phi(sigma.g * length), phi(sigma.b * length));
-    return Rgb<F>(medium_->emission) * extinguished(begin - inside.t_enter) * mean * length;
+      add(Frame::ungrouped, dim * at.albedo * Rgb<F>(frame_.scene.ambient), found);
+    surfaces_.reflect(at, dim, samples, found, [&](int light, const Shadowed<F>& reflected) {
+      add(frame_.light_group[std::size_t(light)], reflected.occluded, found);
+    });
   }
 
   const Frame& frame_;
-  const Medium* medium_;
-  const Space& space_;
-  const Sampler<F>& sampler_;
+  SurfaceLight<F, Space, Sampler<F>> surfaces_;
 };
 
 }  // namespace airlight

@@ -4,7 +4,9 @@
 #include <type_traits>
 
 #include "render/background.h"
+#include "render/camera_ray.h"
 #include "render/kernel.h"
+#include "render/path_kernel.h"
 #include "render/surface_walk.h"
 
 namespace airlight {
@@ -101,25 +103,6 @@ struct PacketSums {
     for (int i = 0; i < lanes<F>; ++i) row[i] += T(numbers[i]);
   }
 };
-
-/// Offset of a camera ray from its pixel's centre, drawn from the filter.  [pixels]
-template <Real F>
-Vec2<F> filter_offset(PixelFilter filter, Vec2<F> u) noexcept {
-  if (filter == PixelFilter::box) return {u.x - F(0.5), u.y - F(0.5)};
-  if (filter == PixelFilter::tent) {
-    const auto tent = [](F v) {
-      const F side = sqrt(F(2) * min(v, F(1) - v));
-      return select(v < F(0.5), side - F(1), F(1) - side);
-    };
-    return {tent(u.x), tent(u.y)};
-  }
-  constexpr double deviation = 0.5, cut = 1.5;
-  const F within(1 - 0.011108996538242306);  // 1 − exp(−(cut / deviation)² / 2)
-  const F radius = min(F(deviation) * sqrt(F(-2) * log1p_minus(u.x * within)), F(cut));
-  F sine, cosine;
-  sin_cos_turn(u.y, sine, cosine);
-  return {radius * cosine, radius * sine};
-}
 
 /// Where light arrives, for the estimator that asks for whole intervals.
 struct ExactVisibility {
@@ -234,10 +217,8 @@ class TileKernel {
       const Vec2<F> offset = filter_offset(frame_.filter, sampler.two(index, stream::camera));
       x = x + offset.x, y = y + offset.y;
     }
-    const CameraFrame& camera = frame_.camera;
-    const Vec3<F> origin(camera.position);
-    const Vec3<F> direction =
-        normalize(Vec3<F>(camera.corner) + Vec3<F>(camera.right) * x + Vec3<F>(camera.down) * y);
+    const Vec3<F> origin(frame_.camera.position);
+    const Vec3<F> direction = camera_direction(frame_.camera, x, y);
 
     LocalRay<F> local{camera_local_, Vec3<F>()};
     Interval<F> inside{F(0), F(0)};
@@ -317,6 +298,7 @@ void render_tile(const Frame& frame, Tile& tile, Watcher& watcher) {
 
 template <Real F>
 void render_tile(const Frame& frame, Tile& tile) {
+  if (frame.paths.max_depth > 1) return render_paths<F>(frame, tile);
   Unwatched nobody;
   render_tile<F>(frame, tile, nobody);
 }

@@ -9,6 +9,8 @@ namespace airlight {
 
 enum class Edges { cached, per_step };
 enum class MixWith { equidistant, distance };
+enum class Continuation { distance, mix, whole_volume };
+enum class SurfaceSums { split, ratio };
 enum class PixelFilter { box, tent, gaussian };
 enum class Noise { per_frame, still };
 enum class Visibility { embree, analytic };
@@ -24,6 +26,20 @@ template <>
 inline constexpr Word<MixWith> words<MixWith>[] = {
     {"equidistant", MixWith::equidistant, "samples spread evenly along the ray"},
     {"distance", MixWith::distance, "samples by what passes back to the camera"},
+};
+template <>
+inline constexpr Word<Continuation> words<Continuation>[] = {
+    {"distance", Continuation::distance, "from a free flight of its own: no weight ever grows"},
+    {"mix", Continuation::mix,
+     "from the sample that asks for light, half of them drawn by whole_volume, half by distance"},
+    {"whole_volume", Continuation::whole_volume,
+     "from the sample that asks for light, drawn by whole_volume: unbiased, but with rare "
+     "fireflies in dense fog"},
+};
+template <>
+inline constexpr Word<SurfaceSums> words<SurfaceSums>[] = {
+    {"split", SurfaceSums::split, "light on surfaces is a plain sum beside the medium's"},
+    {"ratio", SurfaceSums::ratio, "light on surfaces is folded into the estimator's form"},
 };
 template <>
 inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
@@ -59,6 +75,9 @@ struct RenderSettings {
   Edges edges = Edges::cached;
   MixWith mix_with = MixWith::distance;
   double mix_weight = 0.5;
+  std::int64_t max_depth = 1;
+  Continuation continuation = Continuation::distance;
+  SurfaceSums surface = SurfaceSums::split;
   std::int64_t spp = 16;
   std::int64_t samples_per_ray = 4;  ///< 0: all
   std::int64_t seed = 0;
@@ -86,6 +105,12 @@ struct RenderSettings {
           "the placement that placement mix combines with whole_volume");
     field("mix_weight", &S::mix_weight, unit::one, open(0, 1),
           "the part of the samples that mix_with draws");
+    field("max_depth", &S::max_depth, unit::none, closed(1, 65536),
+          "how often light may scatter in the medium or bounce off surfaces; 1: once");
+    field("continuation", &S::continuation, unit::none, any_number(),
+          "where a path of max_depth above 1 scatters next");
+    field("surface", &S::surface, unit::none, any_number(),
+          "how paths of max_depth above 1 sum the light on surfaces");
     field("spp", &S::spp, unit::none, closed(1, 1 << 28),
           "visibility samples a pixel gets for each light");
     field("samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),

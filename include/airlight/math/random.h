@@ -90,31 +90,23 @@ class Stream {
 
   UInt<F> shuffle_, one_, first_, second_;
 };
-/// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
-/// each interval of length 2^-k. `hash` tells a stream from another. It is mixed again before it
-/// scrambles: the low bits, which decide the stratum, of one mix of h ^ a and of h ^ b are not
-/// independent over h.
-template <Real F>
-AIRLIGHT_INLINE F stratified_point(UInt<F> index, UInt<F> hash) noexcept {
-  // reverse(index) is the van der Corput point; its scramble reverses it once more.
-  return unit_interval<F>(reverse_bits(laine_karras(index, mix_bits(hash))));
-}
 
-/// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
+/// The points of a packet of pixels. Each purpose draws from a stream of its own; streams are
+/// independent.
 template <Real F>
-Vec2<F> stratified_pair(UInt<F> index, UInt<F> hash) noexcept {
-  const UInt<F> shuffled = owen_scramble(index, hash);
-  return {stratified_point<F>(shuffled, hash ^ UInt<F>(0x9e3779b9u)),
-          stratified_point<F>(reversed_sobol_second(shuffled), hash ^ UInt<F>(0x7f4a7c15u))};
-}
-/// The streams' hashes are mixed again before they scramble: the low bits, which decide the
-/// stratum, of one mix of h ^ a and of h ^ b are not independent over h.
-Stream<F> stream(std::uint32_t id) const noexcept {
-  return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))));
-}
+struct Sampler {
+  UInt<F> pixel_hash;  ///< of (seed, pixel), a lane a pixel
 
-F one(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).one(index); }
-Vec2<F> two(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).two(index); }
+  /// The streams' hashes are mixed again before they scramble: the low bits, which decide the
+  /// stratum, of one mix of h ^ a and of h ^ b are not independent over h.
+  Stream<F> stream(std::uint32_t id) const noexcept {
+    return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))));
+  }
+
+  F one(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).one(index); }
+  Vec2<F> two(std::uint32_t index, std::uint32_t id) const noexcept {
+    return stream(id).two(index);
+  }
 };
 
 /// The points of a packet of paths at one vertex of each. A lane knows its pixel, the number of its

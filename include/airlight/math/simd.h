@@ -1,7 +1,7 @@
 #pragma once
 /// One vocabulary for one lane and for many: the core is written over a real type F that is
-/// `double` (the reference), `float`, or a SIMD batch with one pixel a lane. Only this header includes
-/// the SIMD library.
+/// `double` (the reference), `float`, or a SIMD batch with one pixel a lane. Only this header
+/// includes the SIMD library.
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -181,6 +181,16 @@ Mask<F> mask_from_bits(std::uint32_t mask) noexcept {
     for (int i = 0; i < lanes<F>; ++i) flags[i] = float((mask >> i) & 1u);
     return F::load_aligned(flags) != F(0.f);
   }
+}
+
+/// Per lane, of unsigned numbers.
+template <Real F>
+UInt<F> select_bits(Mask<F> condition, UInt<F> yes, UInt<F> no) noexcept {
+  if constexpr (lanes<F> == 1)
+    return condition ? yes : no;
+  else
+    return xsimd::bitwise_cast<UInt<F>>(
+        xsimd::select(condition, xsimd::bitwise_cast<F>(yes), xsimd::bitwise_cast<F>(no)));
 }
 
 /// Writes `lanes<F>` integers to memory: -1 where the mask is set, else 0.

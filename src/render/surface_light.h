@@ -1,0 +1,164 @@
+#pragma once
+/// Where a packet of rays meets surfaces, and the light that these receive and send back.
+#include "render/frame.h"
+
+namespace airlight {
+
+/// What a packet of rays meets.
+template <Real F>
+struct Crossing {
+  Vec3<F> point;              ///< [m]
+  Vec3<F> above;              ///< a little off the surface, where rays that leave it start  [m]
+  Vec3<F> normal, geometric;  ///< towards the viewer
+  Rgb<F> albedo;              ///< times opacity; black in holdouts, which the camera does not see
+  Rgb<F> filter;              ///< what the surface lets through
+  F object;                   ///< 1 + index
+  F uncovered;                ///< the opacity of a holdout; 0 of other surfaces
+};
+
+/// An amount of light with the shadows of surfaces and without.
+template <Real F>
+struct Shadowed {
+  Rgb<F> occluded, unoccluded;
+
+  Shadowed& operator+=(const Shadowed& other) noexcept {
+    occluded += other.occluded, unoccluded += other.unoccluded;
+    return *this;
+  }
+  friend Shadowed operator*(const Shadowed& s, const Rgb<F>& part) noexcept {
+    return {s.occluded * part, s.unoccluded * part};
+  }
+};
+
+template <Real F, class Space, DrawsPoints<F> Points>
+class SurfaceLight {
+ public:
+  SurfaceLight(const Frame& frame, const Medium* medium, const Space& space,
+               const Points& sampler) noexcept
+      : frame_(frame), medium_(medium), space_(space), sampler_(sampler) {}
+
+  Crossing<F> crossing(const Hit<F>& hit, Mask<F> where, Vec3<F> origin,
+                       Vec3<F> direction) const noexcept {
+    const std::uint32_t found = bits<F>(where);
+    alignas(64) Scalar<F> values[14][lanes<F>] = {};
+    for (int i = 0; i < lanes<F>; ++i) {
+      if (!((found >> i) & 1u)) continue;
+      const auto k = std::size_t(i);
+      const SurfacePoint s =
+          frame_.world.surface(hit.object[k], hit.primitive[k], hit.u[k], hit.v[k]);
+      const float holdout = s.holdout ? s.opacity : 0;
+      const float own = s.opacity - holdout;
+      const float numbers[14] = {s.normal.x,           s.normal.y,
+                                 s.normal.z,           s.geometric_normal.x,
+                                 s.geometric_normal.y, s.geometric_normal.z,
+                                 s.albedo.r * own,     s.albedo.g * own,
+                                 s.albedo.b * own,     s.transmittance.r,
+                                 s.transmittance.g,    s.transmittance.b,
+                                 float(s.object + 1),  holdout};
+      for (int j = 0; j < 14; ++j) values[j][i] = numbers[j];
+    }
+    const auto at = [&](int j) { return load<F>(values[j]); };
+    Crossing<F> c;
+    c.point = origin + direction * hit.t;
+    c.geometric = Vec3<F>(at(3), at(4), at(5));
+    c.geometric = select(dot(c.geometric, direction) > F(0), -c.geometric, c.geometric);
+    c.normal = Vec3<F>(at(0), at(1), at(2));
+    c.normal = select(dot(c.normal, c.geometric) < F(0), -c.normal, c.normal);
+    c.albedo = Rgb<F>(at(6), at(7), at(8));
+    c.filter = Rgb<F>(at(9), at(10), at(11));
+    c.object = at(12);
+    c.uncovered = at(13);
+    // The hit is known to a few roundings of its coordinates.
+    const F lift = F(2e-5) * (abs(c.point.x) + abs(c.point.y) + abs(c.point.z) + hit.t);
+    c.above = c.point + c.geometric * lift;
+    return c;
+  }
+
+  /// What a diffuse surface sends back of every light, times `dim`: the medium dims light on its
+  /// way in (Velinov 2021 Eq. 1 with a Lambertian surface). sink(light, radiance) is told where
+  /// `where` holds.  [W/(m² sr)]
+  template <class Sink>
+  void reflect(const Crossing<F>& at, const Rgb<F>& dim, SampleRange samples, Mask<F> where,
+               Sink&& sink) const noexcept {
+    const Rgb<F> lambert = dim * at.albedo * F(1 / pi);
+    for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
+      std::visit(
+          [&](const auto& light) { sink(i, irradiance(light, i, at, samples, where) * lambert); },
+          frame_.scene.lights[std::size_t(i)]);
+  }
+
+  /// e^{−σ length}.
+  Rgb<F> extinguished(F length) const noexcept {
+    if (!medium_) return Rgb<F>(F(1));
+    return exp_minus(Rgb<F>(medium_->sigma_t) * length);
+  }
+
+  /// Of the medium between the camera and t.
+  Rgb<F> attenuation(Interval<F> inside, F t) const noexcept {
+    return extinguished(max(min(t, inside.t_exit) - inside.t_enter, F(0)));
+  }
+
+  /// ∫ j e^{−σ s} ds over the part of the medium between two distances, in closed form.
+  Rgb<F> emitted(Interval<F> inside, F from, F to) const noexcept {
+    if (!medium_ || medium_->emission == Rgb<double>()) return {};
+    const F begin = clamp(from, inside.t_enter, inside.t_exit);
+    const F length = clamp(to, inside.t_enter, inside.t_exit) - begin;
+    const Rgb<F> sigma(medium_->sigma_t);
+    const Rgb<F> mean(phi(sigma.r * length), phi(sigma.g * length), phi(sigma.b * length));
+    return Rgb<F>(medium_->emission) * extinguished(begin - inside.t_enter) * mean * length;
+  }
+
+ private:
+  /// Of a beam at a point of a surface.  [W/m²]
+  Shadowed<F> irradiance(const Collimated& beam, int light_index, const Crossing<F>& at,
+                         SampleRange, Mask<F> found) const noexcept {
+    const Mask<F> struck = found & beam.contains(at.point);
+    if (!any(struck)) return {};
+    return arriving(Vec3<F>(beam.toward()), beam.reach(at.above), light_index, at, struck) *
+           Rgb<F>(beam.irradiance);
+  }
+
+  /// Of a light at a point of a surface: the mean over the samples of the ray that came there.
+  /// Directions to a disc belong to samples by their numbers, so that ranges of samples add up to
+  /// the whole.  [W/m²]
+  Shadowed<F> irradiance(const Directional& light, int light_index, const Crossing<F>& at,
+                         SampleRange samples, Mask<F> found) const noexcept {
+    if (!(light.angular_diameter > 0))
+      return arriving(Vec3<F>(light.toward()), F(far_away), light_index, at, found) *
+             Rgb<F>(light.irradiance);
+    Shadowed<F> sum;
+    const std::uint32_t end = samples.first + samples.count;
+    for (std::uint32_t i = samples.first; i < end;) {
+      const std::uint32_t index = i / frame_.samples_per_surface_ray;
+      const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_surface_ray);
+      const Vec3<F> w = uniform_cap(Vec3<F>(light.toward()), F(Scalar<F>(light.cap_height())),
+                                    sampler_.two(index, stream::surface(light_index)));
+      sum += arriving(w, F(far_away), light_index, at, found) * Rgb<F>(F(Scalar<F>(stop - i)));
+      i = stop;
+    }
+    return sum * (Rgb<F>(light.irradiance) * F(Scalar<F>(1. / samples.count)));
+  }
+
+  /// The part of the light from w, where it starts `reach` away, that the surface receives: cosine,
+  /// fog, shadows.
+  Shadowed<F> arriving(Vec3<F> w, F reach, int light_index, const Crossing<F>& at,
+                       Mask<F> found) const noexcept {
+    const F cosine = max(dot(at.normal, w), F(0));
+    const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
+    if (!any(faces)) return {};
+    const Rgb<F> visible = frame_.world.transmit(at.above, w, reach, light_index, faces);
+    Rgb<F> part(cosine);
+    if (medium_) {
+      const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(at.point), space_.vector(w)});
+      part *= extinguished(max(min(chord.t_exit, reach) - chord.t_enter, F(0)));
+    }
+    return {select(faces, part * visible, Rgb<F>()), select(faces, part, Rgb<F>())};
+  }
+
+  const Frame& frame_;
+  const Medium* medium_;
+  const Space& space_;
+  const Points& sampler_;
+};
+
+}  // namespace airlight

@@ -1,0 +1,270 @@
+// Light that scatters again and again: every way to sample it, order by order, against a plain walk
+// of photons (support/analog_walk.h), against the kernel of single scattering, and against what the
+// conservation of energy demands.
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "render/prepare.h"
+#include "render/render.h"
+#include "render/tile_kernel.h"
+#include "support/analog_walk.h"
+#include "support/stats.h"
+
+namespace airlight {
+namespace {
+
+using test::AnalogWalk;
+using test::Colour;
+using test::Sheet;
+using test::Vector;
+
+constexpr int orders = AnalogWalk::orders;
+
+// --- scenes -------------------------------------------------------------------------------------
+
+/// The media in which the paths' maths was checked on paper, and one in colours.
+struct Fog {
+  const char* name;
+  Colour sigma_t, albedo;
+  double g;
+  bool floor, ball;
+
+  friend void PrintTo(const Fog& fog, std::ostream* out) { *out << fog.name; }
+};
+
+const Fog fogs[] = {
+    {"thin", Colour(1.), Colour(0.9), 0, false, false},
+    {"thin and forward, on a floor", Colour(1.), Colour(0.8), 0.6, true, true},
+    {"dense and backward, with a ball", Colour(3.), Colour(0.95), -0.4, false, true},
+    {"dense and forward", Colour(3.), Colour(0.9), 0.8, false, false},
+    {"very dense, with a ball", Colour(8.), Colour(0.9), 0, false, true},
+    {"coloured, on a floor", {0.3, 1, 3}, {0.95, 0.8, 0.9}, 0, true, true},
+};
+
+const Colour floor_colour{0.7, 0.5, 0.3};
+constexpr double ball_grey = 0.6;
+
+Scene scene_of(const Fog& fog) {
+  Scene scene;
+  scene.resolution = {3, 1};
+  scene.camera = {.position = {0.3, 0.8, 3.5}, .target = {0.1, -0.2, 0}, .up = {0, 1, 0}, .fov = 9};
+  Medium medium;
+  medium.sigma_t = fog.sigma_t, medium.sigma_s = fog.sigma_t * fog.albedo;
+  medium.phase = HenyeyGreenstein{fog.g};
+  scene.medium = medium;
+  Directional sun;
+  sun.direction = -normalize(Vector(0.4, 1, 0.3));
+  sun.irradiance = Colour(3., 2., 1.);
+  scene.lights = {sun};
+  if (fog.floor) {
+    const double half = AnalogWalk::floor_half;
+    const Sheet floor{.corner = {-half, AnalogWalk::floor_height, -half},
+                      .right = {0, 0, 2 * half},
+                      .up = {2 * half, 0, 0},
+                      .albedo = floor_colour};
+    scene.objects.push_back(floor.object("floor"));
+  }
+  if (fog.ball) {
+    Material grey;
+    grey.albedo = Colour(ball_grey);
+    scene.objects.push_back({"ball", Sphere{{0, 0, 0}, AnalogWalk::ball_radius}, grey});
+  }
+  scene.render.samples_per_ray = 0;
+  scene.render.visibility = Visibility::analytic;
+  scene.render.max_depth = orders;
+  return scene;
+}
+
+// --- what paths do ------------------------------------------------------------------------------
+
+/// Sums of light by its order, and the worst growth of what a path carries.
+struct Listener {
+  std::array<Estimate<double>, orders + 1> by_order;  ///< [1] has scattered once
+  Colour albedo;                                      ///< of the medium
+  double worst_scattering = 0;  ///< Σβ' over Σβ and the largest albedo of the medium
+  double worst_surface = 0;     ///< Σβ' over Σβ, past a surface
+
+  template <Real F>
+  void gathers(const Paths<F>& paths, const Estimate<F>& light, Mask<F> where) noexcept {
+    const std::uint32_t lit = bits<F>(where);
+    for (int i = 0; i < lanes<F>; ++i) {
+      if (!((lit >> i) & 1u)) continue;
+      Estimate<double>& sum = by_order[std::size_t(lane(paths.events, i)) + 1];
+      sum.plain += at(light.plain, i), sum.analytic += at(light.analytic, i);
+      sum.occluded += at(light.occluded, i), sum.unoccluded += at(light.unoccluded, i);
+    }
+  }
+
+  template <Real F>
+  void goes_on(const Paths<F>& before, const Rgb<F>& throughput, Mask<F> scatters,
+               Mask<F> surface) noexcept {
+    const std::uint32_t in_medium = bits<F>(scatters), on_surface = bits<F>(surface);
+    const double most = std::max({albedo.r, albedo.g, albedo.b});
+    for (int i = 0; i < lanes<F>; ++i) {
+      const Colour was = at(before.throughput, i), is = at(throughput, i);
+      const double growth = (is.r + is.g + is.b) / (was.r + was.g + was.b);
+      if ((in_medium >> i) & 1u) worst_scattering = std::max(worst_scattering, growth / most);
+      if ((on_surface >> i) & 1u) worst_surface = std::max(worst_surface, growth);
+    }
+  }
+
+ private:
+  template <Real F>
+  static Colour at(const Rgb<F>& c, int i) {
+    return {lane(c.r, i), lane(c.g, i), lane(c.b, i)};
+  }
+};
+
+/// Every path of a picture, in one tile.
+template <Real F>
+Listener listen(const Scene& scene, const World& world, const RenderSettings& settings) {
+  const Prepared prepared = prepare(scene, world, settings);
+  Listener listener;
+  if (scene.medium)
+    for (int c = 0; c < 3; ++c)
+      listener.albedo[c] = scene.medium->sigma_s[c] / scene.medium->sigma_t[c];
+  const PixelRect whole{0, 0, scene.resolution.width, scene.resolution.height};
+  Film film(scene.resolution, whole, prepared.frame.layout, light_group_names(scene));
+  Tile tile{whole, prepared.samples, film};
+  render_paths<F>(prepared.frame, tile, listener);
+  EXPECT_EQ(tile.rejected, 0);
+  const double samples = double(settings.spp) * whole.width * whole.height;
+  for (Estimate<double>& sums : listener.by_order) sums = sums * (1 / samples);
+  return listener;
+}
+
+/// A mean and its standard error, by order and colour.
+struct Measured {
+  double mean[orders + 1][3] = {}, error[orders + 1][3] = {};
+};
+
+/// How far two means lie apart in standard errors, at most, with rounding of floats allowed for.
+double worst_z(const Measured& a, const Measured& b) {
+  double worst = 0;
+  for (int k = 1; k <= orders; ++k)
+    for (int c = 0; c < 3; ++c) {
+      const double error = std::hypot(a.error[k][c], b.error[k][c], 2e-6 * b.mean[k][c]);
+      if (error > 0) worst = std::max(worst, std::abs(a.mean[k][c] - b.mean[k][c]) / error);
+    }
+  return worst;
+}
+
+/// The three accumulators and the surfaces' plain sums of paths with independent seeds.
+struct Sums {
+  Measured occluded, analytic, unoccluded;
+  Listener last;
+};
+
+constexpr int seeds = 24;
+
+Sums sums_of(const Scene& scene, RenderSettings settings) {
+  const World world(scene, settings.visibility);
+  settings.spp = 1024;
+  std::vector<Listener> runs;
+  double growth = 0, surface = 0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    settings.seed = 100 + seed;
+    runs.push_back(listen<FloatBatch>(scene, world, settings));
+    growth = std::max(growth, runs.back().worst_scattering);
+    surface = std::max(surface, runs.back().worst_surface);
+  }
+  Sums sums;
+  sums.last = runs.back();
+  sums.last.worst_scattering = growth, sums.last.worst_surface = surface;
+  const auto measure = [&](Measured& to, auto value) {
+    for (int k = 1; k <= orders; ++k)
+      for (int c = 0; c < 3; ++c) {
+        std::vector<double> values;
+        for (const Listener& run : runs) values.push_back(value(run.by_order[std::size_t(k)])[c]);
+        to.mean[k][c] = mean(values), to.error[k][c] = standard_error(values);
+      }
+  };
+  measure(sums.occluded, [](const auto& e) { return e.plain + e.occluded; });
+  measure(sums.analytic, [](const auto& e) { return e.plain + e.analytic; });
+  measure(sums.unoccluded, [](const auto& e) { return e.plain + e.unoccluded; });
+  return sums;
+}
+
+/// What plain walks give for the same picture.
+Measured truth_of(const Fog& fog, const Scene& scene) {
+  const auto& sun = std::get<Directional>(scene.lights[0]);
+  const bool grey = fog.sigma_t.r == fog.sigma_t.b && fog.albedo.r == fog.albedo.b && !fog.floor;
+  constexpr int walks = 150000;
+  Measured truth;
+  for (int c = 0; c < 3; ++c) {
+    if (grey && c > 0) {  // the light's colour is all that tells them apart
+      for (int k = 1; k <= orders; ++k) {
+        const double part = sun.irradiance[c] / sun.irradiance.r;
+        truth.mean[k][c] = truth.mean[k][0] * part, truth.error[k][c] = truth.error[k][0] * part;
+      }
+      continue;
+    }
+    AnalogWalk walk;
+    walk.sigma_t = fog.sigma_t[c], walk.albedo = fog.albedo[c], walk.g = fog.g;
+    walk.sun = -sun.direction, walk.irradiance = sun.irradiance[c];
+    if (fog.floor) walk.floor_albedo = floor_colour[c];
+    if (fog.ball) walk.ball_albedo = ball_grey;
+    std::mt19937_64 random(unsigned(7 + c));
+    double sum[orders] = {}, squares[orders] = {};
+    for (int pixel = 0; pixel < 3; ++pixel)
+      for (int i = 0; i < walks; ++i) {
+        const auto light = walk(test::camera_ray(scene, pixel + 0.5, 0.5), random);
+        for (int k = 0; k < orders; ++k) {
+          const double x = light[std::size_t(k)];
+          sum[k] += x, squares[k] += x * x;
+        }
+      }
+    constexpr double n = 3. * walks;
+    for (int k = 0; k < orders; ++k) {
+      const double mean = sum[k] / n;
+      truth.mean[k + 1][c] = mean;
+      truth.error[k + 1][c] = std::sqrt((squares[k] / n - mean * mean) / n);
+    }
+  }
+  return truth;
+}
+
+class EveryFog : public testing::TestWithParam<Fog> {};
+
+TEST_P(EveryFog, gives_every_order_alike_however_it_is_sampled) {
+  Scene scene = scene_of(GetParam());
+  const Measured truth = truth_of(GetParam(), scene);
+  struct Way {
+    const char* estimator;
+    Continuation continuation;
+  };
+  std::vector<Way> ways = {{"rees", Continuation::distance},
+                           {"reds", Continuation::distance},
+                           {"rewv", Continuation::distance},
+                           {"mix+ratio", Continuation::distance},
+                           {"rewv", Continuation::mix}};
+  // Its tail is so heavy in dense fog that no number of paths tells its standard error.
+  if (GetParam().sigma_t.b <= 1) ways.push_back({"rewv", Continuation::whole_volume});
+  for (const Way& way : ways) {
+    RenderSettings settings = scene.render;
+    settings.estimator = way.estimator, settings.continuation = way.continuation;
+    for (const SurfaceSums surface : {SurfaceSums::split, SurfaceSums::ratio}) {
+      settings.surface = surface;
+      const Sums sums = sums_of(scene, settings);
+      SCOPED_TRACE(testing::Message()
+                   << way.estimator << " " << int(way.continuation) << " " << int(surface));
+      EXPECT_LT(worst_z(sums.occluded, truth), 4);
+      EXPECT_LT(worst_z(sums.unoccluded, sums.analytic), 4);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_LT(sums.occluded.error[2][c] / sums.occluded.mean[2][c], 0.06) << "proves little";
+      if (way.continuation == Continuation::distance) {
+        EXPECT_LT(sums.last.worst_scattering, 1 + 2e-6);
+      } else if (way.continuation == Continuation::mix) {
+        EXPECT_LT(sums.last.worst_scattering, 2 + 1e-4);
+      }
+      EXPECT_LT(sums.last.worst_surface, 1 + 2e-6);
+      if (!GetParam().floor && !GetParam().ball) break;  // nothing to split
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(MultipleScattering, EveryFog, testing::ValuesIn(fogs));
+
+}  // namespace
+}  // namespace airlight
