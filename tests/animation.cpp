@@ -445,6 +445,8 @@ TEST(MovingModel, moves_what_stands_on_what_moves_and_the_camera) {
 
 TEST(MovingModel, says_what_it_leaves_out) {
   MovingTriangle model;
+  model.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", model.positions({0, 0, 0, 0, 0, 1, 0, 0, 0})}}};
   model.move("weights", {0, 1}, "SCALAR", 1, {0, 1});
   model.move("translation", {0, 1}, "VEC3", 3, {0, 0, 0, 2, 0, 0});
   model.move("translation", {0, 1}, "VEC3", 3, {0, 0, 0, 0, 2, 0});
@@ -550,6 +552,24 @@ TEST(Frames, that_an_interrupt_cut_short_are_not_written) {
                               }});
   EXPECT_EQ(outcome.status % 1000, outcome.status >= 1000 ? SIGINT : 128 + SIGINT);
   EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml"));
+}
+
+TEST(Frames, are_whole_however_often_the_run_is_killed) {
+  const Desk whole, killed;
+  const std::vector<std::string> flags = {"--frames", "0..7", "--skip-existing"};
+  ASSERT_EQ(whole.render("out.#.pfm", flags).status, 0);
+  for (int i = 1; i <= 6; ++i)
+    run({"render", killed.scene, "-o", killed.folder / "out.#.pfm", "--frames", "0..7",
+         "--skip-existing"},
+        {.during = [&](pid_t child) {
+          usleep(useconds_t(i * 12'000));
+          kill(child, SIGKILL);
+        }});
+  EXPECT_EQ(killed.render("out.#.pfm", flags).status, 0);
+  for (int i = 0; i < 8; ++i) {
+    const std::string name = "out." + std::to_string(i) + ".pfm";
+    EXPECT_EQ(bytes_of(whole.folder / name), bytes_of(killed.folder / name)) << name;
+  }
 }
 
 TEST(Frames, want_a_place_for_their_number) {

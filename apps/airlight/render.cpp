@@ -150,8 +150,9 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
     fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
                done.rejected);
   if (!manner.quiet) {
-    for (const std::string& warning : airlight::warnings_after(scene, done.film))
-      fmt::print(stderr, "warning: {}\n", warning);
+    if (turn.name.empty())  // a frame of a film may well be dark
+      for (const std::string& warning : airlight::warnings_after(scene, done.film))
+        fmt::print(stderr, "warning: {}\n", warning);
     const std::string of = done.complete ? "" : fmt::format(" of {}", scene.render.spp);
     fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", outputs.names(), done.film.crop.width,
                done.film.crop.height, done.samples, of, done.seconds, done.instruction_set);

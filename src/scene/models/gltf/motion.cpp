@@ -58,16 +58,15 @@ void normalise(Numbers& quaternion) {
 }  // namespace
 
 Motion::Motion(const Document& document, std::vector<std::string>& remarks) {
-  std::size_t left_out = 0, morphs = 0;
+  std::size_t left_out = 0;
   for (std::size_t a = 0; a < document.animations.size(); ++a) {
     const Json& animation = document.animations[a];
     const Json& channels = animation.at("channels");
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const Json& target = channels[c].at("target");
       const std::string path = target.at("path");
-      if (path == "weights")
-        ++morphs;
-      else if (!target.contains("node"))
+      if (path == "weights") continue;  // of morph targets, which the mesh tells of
+      if (!target.contains("node"))
         ++left_out;
       else
         add(document, animation, channels[c], fmt::format("animations[{}].channels[{}]", a, c));
@@ -79,7 +78,6 @@ Motion::Motion(const Document& document, std::vector<std::string>& remarks) {
   };
   if (std::erase_if(channels_, twice) > 0)
     remarks.push_back("where several animations move the same node, the first does");
-  if (morphs > 0) remarks.push_back("meshes do not change shape: morph targets are left out");
   if (left_out > 0)
     remarks.push_back(
         fmt::format("{} animations of other things than nodes are left out", left_out));

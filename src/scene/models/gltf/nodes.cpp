@@ -148,7 +148,7 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
 }
 
 std::vector<Directional> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
-                                std::vector<std::string>& remarks) {
+                                     std::vector<std::string>& remarks) {
   std::vector<Directional> lights;
   std::size_t left_out = 0;
   for (const PlacedNode& placed : nodes) {

@@ -23,6 +23,6 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
 
 /// The directional lights among the nodes. What else shines is named in a remark.
 std::vector<Directional> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,
-                                std::vector<std::string>& remarks);
+                                     std::vector<std::string>& remarks);
 
 }  // namespace airlight::gltf

@@ -87,6 +87,7 @@ void Collector::add(const PlacedNode& placed) {
 
 void Collector::add(const tinygltf::Primitive& primitive, const Affine& to_world,
                     const std::string& where) {
+  saw_morphs_ = saw_morphs_ || !primitive.targets.empty();
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
     saw_lines_ = true;
     return;
@@ -155,6 +156,7 @@ std::vector<Object> Collector::finish(std::vector<std::string>& remarks) {
   if (saw_lines_) remarks.push_back("points and lines of the file are left out");
   if (saw_colours_) remarks.push_back("colours of vertices are left out");
   if (saw_skin_) remarks.push_back("skinned meshes stand as they were modelled");
+  if (saw_morphs_) remarks.push_back("meshes do not change shape: morph targets are left out");
   std::vector<Object> objects;
   for (Part& part : parts_) {
     if (part.mesh.triangles.empty()) continue;

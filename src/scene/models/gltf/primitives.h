@@ -37,7 +37,7 @@ class Collector {
       copied_for_;  ///< where a vertex went, and for which primitive that counts
   std::uint32_t primitive_number_ = 0;
   std::size_t triangles_ = 0;
-  bool saw_lines_ = false, saw_colours_ = false, saw_skin_ = false;
+  bool saw_lines_ = false, saw_colours_ = false, saw_skin_ = false, saw_morphs_ = false;
 };
 
 }  // namespace airlight::gltf
