@@ -26,10 +26,16 @@ inline constexpr Scalar<F> parallel_below = Scalar<F>(std::same_as<F, double> ? 
 /// it, once a frame:
 ///
 ///     space.point(p), space.vector(v)     world to local (affine)
-///     space.clip(ray)                     the interval of t inside, not before the ray's origin
+///     space.clip(ray)                     the interval of t inside, not before the ray's origin;
+///                                         of a concave shape from the first entry to the last exit
+///
+/// and, of a convex shape,
+///
 ///     space.outward(w)                    what is shared by all points when light comes from w
 ///     (local) space.way_out(ray, outward, t_max)  the way out for a ray that starts inside
 ///     space.distance_out(p, outward)      from p along w to the boundary  [m]
+///
+/// or, of a concave one, what `InPieces` asks for.
 template <class S>
 concept Shape = requires(const S shape, LocalRay<double> ray, Vec3<double> v) {
   { S::name } -> std::convertible_to<const char*>;
@@ -37,7 +43,23 @@ concept Shape = requires(const S shape, LocalRay<double> ray, Vec3<double> v) {
   { shape.space().point(v) } -> std::same_as<Vec3<double>>;
   { shape.space().vector(v) } -> std::same_as<Vec3<double>>;
   { shape.space().clip(ray) } -> std::same_as<Interval<double>>;
+};
+
+/// A shape that every line meets in one interval.
+template <class S>
+concept ConvexShape = Shape<S> && requires(const S shape, Vec3<double> v) {
   { shape.space().distance_out(v, shape.space().outward(v)) } -> std::same_as<double>;
+};
+
+/// A space in which the optical depth of the whole way is not concave, as in one convex body, but
+/// linear in pieces: of media side by side, or inside a concave boundary.
+///
+///     space.stretches(ray, medium)        the ray's own stretches inside
+///     space.cut(ray, w, t_max, stretches, pieces)  fills `Pieces` for light from w
+///     space.seen(ray, t, w, stretches)    a point of them, without the others
+template <class Space>
+concept InPieces = requires {
+  requires Space::in_pieces;
 };
 
 }  // namespace airlight::inline AIRLIGHT_ISA

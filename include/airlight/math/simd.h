@@ -148,6 +148,12 @@ UInt<F> load_bits(const std::uint32_t* values) noexcept {
     return UInt<F>::load_unaligned(values);
 }
 
+/// The scalars of a value in memory, a lane each, to be written one by one.
+template <Real F>
+Scalar<F>* scalars_of(F* values) noexcept {
+  return reinterpret_cast<Scalar<F>*>(values);  // a register's type may alias its elements
+}
+
 /// Writes `lanes<F>` scalars to memory.
 template <Real F, class T>
 void store(F x, T* values) noexcept {

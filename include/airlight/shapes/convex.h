@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 
 #include "../shape.h"
 
@@ -10,6 +11,22 @@ struct Plane {
   Vec3<double> n;  ///< unit normal, pointing out
   double h = 0;    ///< [m]
 };
+
+/// The part of a ray inside of all planes, ahead of its origin.
+template <Real F>
+Interval<F> clip_by_planes(std::span<const Plane> faces, const LocalRay<F>& ray) noexcept {
+  Interval<F> inside{F(0), F(far_away)};
+  for (const Plane& face : faces) {
+    const Vec3<F> n(face.n);
+    const F facing = dot(n, ray.d), above = F(Scalar<F>(face.h)) - dot(n, ray.o);
+    const Mask<F> along = abs(facing) < F(1e-30f);
+    const F t = above / select(along, F(1), facing);
+    const F missed = select(above < F(0), F(far_away), F(0));
+    inside.t_enter = max(inside.t_enter, select(along, missed, select(facing < F(0), t, F(0))));
+    inside.t_exit = min(inside.t_exit, select(along | (facing < F(0)), F(far_away), t));
+  }
+  return inside;
+}
 
 /// A convex polyhedron: what is inside all of its planes.
 struct Convex {
@@ -39,17 +56,7 @@ struct Convex {
 
     template <Real F>
     Interval<F> clip(const LocalRay<F>& ray) const noexcept {
-      Interval<F> inside{F(0), F(far_away)};
-      for (int k = 0; k < face_count; ++k) {
-        const Vec3<F> n(faces[k].n);
-        const F facing = dot(n, ray.d), above = F(Scalar<F>(faces[k].h)) - dot(n, ray.o);
-        const Mask<F> along = abs(facing) < F(1e-30f);
-        const F t = above / select(along, F(1), facing);
-        const F missed = select(above < F(0), F(far_away), F(0));
-        inside.t_enter = max(inside.t_enter, select(along, missed, select(facing < F(0), t, F(0))));
-        inside.t_exit = min(inside.t_exit, select(along | (facing < F(0)), F(far_away), t));
-      }
-      return inside;
+      return clip_by_planes(std::span(faces).first(std::size_t(face_count)), ray);
     }
 
     template <Real F>
