@@ -82,11 +82,11 @@ Scene crowded_room() {
     }
   scene.camera = {
       .position = {-3.6, 1.7, 3.8}, .target = {1, 1.1, -1.5}, .up = {0, 1, 0}, .fov = 55};
-  scene.medium = Medium{.sigma_s = Rgb<double>(0.09),
-                        .sigma_t = Rgb<double>(0.1),
-                        .emission = {},
-                        .phase = HenyeyGreenstein{0.5},
-                        .shape = Box{{-4, 0, -4}, {4, 3, 4}, {0, 0, 0}}};
+  scene.media.push_back(Medium{.sigma_s = Rgb<double>(0.09),
+                               .sigma_t = Rgb<double>(0.1),
+                               .emission = {},
+                               .phase = HenyeyGreenstein{0.5},
+                               .shape = Box{{-4, 0, -4}, {4, 3, 4}, {0, 0, 0}}});
   scene.lights = {Directional{Rgb<double>(10.), normalize(V(-0.8, -0.45, -0.3)), 0}};
   return scene;
 }

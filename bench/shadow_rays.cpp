@@ -71,7 +71,7 @@ struct PictureOfRays {
   /// What the renderer asks for a pixel, in its order.
   static std::vector<ShadowRay> rays_of_pixel(const Prepared& prepared, int x, int y) {
     const Frame& frame = prepared.frame;
-    const Medium& medium = *frame.scene.medium;
+    const Medium& medium = frame.scene.media[0];
     const Box::Space space = std::get<Box>(medium.shape).space();
     const auto& sun = std::get<Directional>(frame.scene.lights.at(0));
     const CameraFrame& camera = frame.camera;

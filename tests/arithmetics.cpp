@@ -32,7 +32,7 @@ Scene fog_scene(const Colour& sigma_t, const Shapes& shape = Box{}) {
   medium.phase = HenyeyGreenstein{0.5};
   medium.emission = {0.002, 0.001, 0.003};
   medium.shape = shape;
-  scene.medium = medium;
+  scene.media = {medium};
   scene.background = {0.3, 0.2, 0.1};
   scene.ambient = {0.05, 0.06, 0.07};
   scene.lights = {sun({0.4, 1, 0.3})};
@@ -147,7 +147,7 @@ TEST(Arithmetics, agree_with_the_camera_inside) {
   Scene scene = fog_scene({0.3, 1, 3});
   scene.camera = {.position = {0.3, 0.2, 0.8}, .target = {0, -0.2, -1}, .fov = 80};
   expect_agreement(scene, "box");
-  scene.medium->shape = octahedron();
+  scene.media[0].shape = octahedron();
   expect_agreement(scene, "octahedron");
 }
 

@@ -22,7 +22,7 @@ Scene scene() {
   Medium medium;
   medium.sigma_s = Rgb<double>(0.5);
   medium.sigma_t = Rgb<double>(1.);
-  scene.medium = medium;
+  scene.media = {medium};
   scene.lights = {Directional{}};
   scene.objects = {{"ball", Sphere{{0, 0, 0}, 0.5}, {}}};
   scene.render.threads = 1;
@@ -142,13 +142,13 @@ TEST(Settings, parallel_light_never_arrives_in_a_medium_without_end) {
   for (const char* estimator : {"rewv", "rm", "mix+difference", "closed_form"})
     EXPECT_THAT(refusal_of([&](Scene& s) {
                   s.render.estimator = estimator;
-                  s.medium->shape = Unbounded{};
+                  s.media[0].shape = Unbounded{};
                 }),
                 AllOf(HasSubstr(estimator), HasSubstr("lights.0"), HasSubstr("never arrives"),
                       HasSubstr("box")))
         << estimator;
   EXPECT_EQ(refusal_of([](Scene& s) {
-              s.medium->shape = Unbounded{};
+              s.media[0].shape = Unbounded{};
               s.lights.clear();
             }),
             "");
@@ -157,7 +157,7 @@ TEST(Settings, parallel_light_never_arrives_in_a_medium_without_end) {
 TEST(Settings, without_a_medium_any_light_will_do) {
   for (const char* estimator : {"rewv", "closed_form"})
     EXPECT_EQ(refusal_of([&](Scene& s) {
-                s.medium.reset();
+                s.media.clear();
                 s.render.estimator = estimator;
               }),
               "")

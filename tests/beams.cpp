@@ -125,7 +125,7 @@ Scene beam_in_a_box() {
   scene.camera = {.position = {0, 0, 4}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 14};
   Medium fog;
   fog.sigma_s = {0.5, 0.7, 0.9}, fog.sigma_t = {0.6, 0.9, 1.4};
-  scene.medium = fog;
+  scene.media = {fog};
   Collimated beam;
   beam.irradiance = {3, 2, 1};
   beam.direction = normalize(Vector(0.2, -1, -0.1));
@@ -218,7 +218,7 @@ TEST(BeamsInScenes, with_an_image_give_what_quadrature_gives) {
   beam.image = 0;
   beam.cross_section = CrossSection::rectangle(1.2, 1.4);
 
-  const Medium& fog = *scene.medium;
+  const Medium& fog = scene.media[0];
   const Vector d(0, 0, -1), w = beam.toward(), o(0, 0, 1);  // where the ray enters the box
   // x of the cross-section at the entry, and what it gains a metre: linear along the ray, and so
   // are the ends of the beam.
@@ -332,7 +332,7 @@ TEST(BeamsInScenes, bring_a_floor_the_energy_they_start_with) {
   Medium fog;
   fog.sigma_t = Rgb<double>(0.2);
   fog.shape = Box{{-9, -1, -9}, {9, 999, 9}};
-  scene.medium = fog;
+  scene.media = {fog};
   beam.cross_section = CrossSection::circle(0.1);  // all its light goes as far
   scene.lights = {beam};
   EXPECT_NEAR(flux() * std::exp(0.2 * 999), 7 * pi * 0.01 * std::exp(-0.2 * 3),

@@ -62,7 +62,7 @@ Scene scene_of(const Case& c) {
   medium.sigma_t = c.rgb ? Rgb<double>(0.3, 1, 3) : Rgb<double>(1.1);
   medium.phase = c.phase;
   if (c.polyhedron) medium.shape = convex(dodecahedron());
-  scene.medium = medium;
+  scene.media = {medium};
   Directional sun;
   sun.irradiance = {3, 2.5, 2};
   sun.direction = -toward;
@@ -136,8 +136,8 @@ Truth truth_at(const Case& c, const Scene& scene, int x, int y) {
   const auto& sun = std::get<Directional>(scene.lights[0]);
   const double phase = evaluate(c.phase, dot(toward, d));
   for (int k = 0; k < 3; ++k) {
-    const double sigma = scene.medium->sigma_t[k];
-    const double scale = std::exp(-sigma * double(way.shortest())) * scene.medium->sigma_s[k] *
+    const double sigma = scene.media[0].sigma_t[k];
+    const double scale = std::exp(-sigma * double(way.shortest())) * scene.media[0].sigma_s[k] *
                          sun.irradiance[k] * phase;
     double integral = double(way.integral(sigma));
     result.open[k] = scale * integral;

@@ -124,7 +124,7 @@ Scene scene_of(const Case& c) {
   medium.sigma_t = c.rgb ? Colour(0.3, 1, 2) : Colour(1.1);
   medium.emission = {0.05, 0.02, 0.01};
   medium.phase = HenyeyGreenstein{0.4};
-  scene.medium = medium;
+  scene.media = {medium};
   scene.background = {0.3, 0.2, 0.1};
   scene.ambient = {0.05, 0.06, 0.07};
   Directional sun;

@@ -679,9 +679,9 @@ TEST_F(InScenes, rooms_are_seen_from_inside_with_the_sun_in_the_window) {
   ASSERT_EQ(scene.lights.size(), 1U);
   EXPECT_LT(std::get<Directional>(scene.lights[0]).toward().x, 0);
   EXPECT_GT(std::get<Directional>(scene.lights[0]).toward().y, 0);
-  const Box& fog = std::get<Box>(scene.medium->shape);
+  const Box& fog = std::get<Box>(scene.media[0].shape);
   EXPECT_TRUE(inside(fog.min, 0.01) && inside(fog.max, 0.01));
-  const double depth = scene.medium->sigma_t.r * length(fog.max - fog.min);
+  const double depth = scene.media[0].sigma_t.r * length(fog.max - fog.min);
   EXPECT_GT(depth, 0.4);
   EXPECT_LT(depth, 1.2);
   ASSERT_EQ(scene.assumptions.size(), 2U);
@@ -693,7 +693,7 @@ TEST_F(InScenes, things_are_seen_from_outside_in_a_cloud) {
   const Scene scene = load_scene(write_text(scratch_ / "a.glb", square_document().glb()));
   EXPECT_GT(length(scene.camera.position - Vec3<double>(0.5, 0.5, 0)), 1);
   EXPECT_NEAR(scene.camera.target.x, 0.5, 1e-3);
-  const Box& fog = std::get<Box>(scene.medium->shape);
+  const Box& fog = std::get<Box>(scene.media[0].shape);
   EXPECT_LT(fog.min.x, 0);
   EXPECT_GT(fog.max.y, 1);
   EXPECT_GT(fog.max.z, fog.min.z);

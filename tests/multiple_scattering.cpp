@@ -52,7 +52,7 @@ Scene scene_of(const Fog& fog) {
   Medium medium;
   medium.sigma_t = fog.sigma_t, medium.sigma_s = fog.sigma_t * fog.albedo;
   medium.phase = HenyeyGreenstein{fog.g};
-  scene.medium = medium;
+  scene.media = {medium};
   Directional sun;
   sun.direction = -normalize(Vector(0.4, 1, 0.3));
   sun.irradiance = Colour(3., 2., 1.);
@@ -121,9 +121,9 @@ template <Real F>
 Listener listen(const Scene& scene, const World& world, const RenderSettings& settings) {
   const Prepared prepared = prepare(scene, world, settings);
   Listener listener;
-  if (scene.medium)
+  if (!scene.media.empty())
     for (int c = 0; c < 3; ++c)
-      listener.albedo[c] = scene.medium->sigma_s[c] / scene.medium->sigma_t[c];
+      listener.albedo[c] = scene.media[0].sigma_s[c] / scene.media[0].sigma_t[c];
   const PixelRect whole{0, 0, scene.resolution.width, scene.resolution.height};
   Film film(scene.resolution, whole, prepared.frame.layout, light_group_names(scene));
   Tile tile{whole, prepared.samples, film};

@@ -31,7 +31,7 @@ Scene scene_of(double diameter, const std::vector<Sheet>& sheets) {
   Medium medium;
   medium.sigma_s = Colour(0.8), medium.sigma_t = Colour(1.1);
   medium.phase = HenyeyGreenstein{0.4};
-  scene.medium = medium;
+  scene.media = {medium};
   Directional sun;
   sun.irradiance = Colour(3.);
   sun.direction = -normalize(Vector(0.1, 1, -0.2));

@@ -146,7 +146,7 @@ TEST(Probe, steps_and_nodes_agree_with_the_closed_form) {
     expect_near(integral, light.transmittance_integral, x * x / 20);
     EXPECT_NEAR(density, 1, x * x / 20);
     for (const ProbedNode& node : light.nodes)
-      expect_near(node.optical_depth, scene.medium->sigma_t * node.length, 1e-15);
+      expect_near(node.optical_depth, scene.media[0].sigma_t * node.length, 1e-15);
     for (const ProbedSample& sample : light.samples) {
       EXPECT_GE(sample.t, from);
       EXPECT_LE(sample.t, to);

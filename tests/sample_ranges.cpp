@@ -25,7 +25,7 @@ Scene everything() {
   medium.sigma_s = {0.2, 0.4, 0.9}, medium.sigma_t = {0.3, 0.7, 1.6};
   medium.emission = {0.02, 0.01, 0.03};
   medium.phase = HenyeyGreenstein{0.5};
-  scene.medium = medium;
+  scene.media = {medium};
   scene.background = {0.3, 0.2, 0.1};
   scene.ambient = {0.05, 0.06, 0.07};
   Directional sun{.irradiance = {3, 2.5, 2}, .direction = normalize(Vec3<double>(-0.4, -1, -0.3))};
@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryArithmetic, testing::ValuesIn(available_kernels(
 /// The mean square of the standard error over the mean square error, of all pixels and seeds.
 double claimed_over_true(const char* estimator, std::int64_t spp, std::int64_t per_ray) {
   Scene scene = everything();
-  scene.medium->emission = {};
+  scene.media[0].emission = {};
   Renderer renderer(scene);
   RenderSettings settings = scene.render;
   settings.estimator = estimator;

@@ -41,7 +41,7 @@ std::string error_of(const std::string& text, const std::vector<Override>& overr
 }
 
 Medium medium_of(const std::string& keys) {
-  return *parse_scene("[[media]]\nshape = {type = \"box\"}\n" + keys, "fog.toml").medium;
+  return parse_scene("[[media]]\nshape = {type = \"box\"}\n" + keys, "fog.toml").media.at(0);
 }
 
 Vec3<double> direction_of(const std::string& keys) {
@@ -63,7 +63,7 @@ TEST(SceneReader, takes_an_empty_file_for_the_defaults) {
   EXPECT_EQ(scene.resolution.width, 640);
   EXPECT_EQ(scene.camera.position, Vec3<double>(0, 0, 5));
   EXPECT_EQ(scene.render.estimator, "rewv");
-  EXPECT_FALSE(scene.medium);
+  EXPECT_TRUE(scene.media.empty());
 }
 
 TEST(SceneReader, reads_camera_image_surroundings_and_settings) {
@@ -131,7 +131,7 @@ TEST(SceneReader, loads_every_scene_of_the_project) {
   for (const auto& entry : std::filesystem::directory_iterator(AIRLIGHT_SOURCE_DIR "/scenes")) {
     if (entry.path().extension() != ".toml") continue;
     const Scene scene = load_scene(entry.path());
-    EXPECT_TRUE(scene.medium) << entry.path();
+    EXPECT_FALSE(scene.media.empty()) << entry.path();
     EXPECT_FALSE(scene.lights.empty()) << entry.path();
     ++count;
   }
@@ -140,7 +140,7 @@ TEST(SceneReader, loads_every_scene_of_the_project) {
 
 TEST(SceneReader, gives_the_sphere_in_fog_the_factor_of_its_comment) {
   const Scene scene = load_scene(AIRLIGHT_SOURCE_DIR "/scenes/sphere_in_fog.toml");
-  const double factor = scene.medium->sigma_s.g * evaluate(scene.medium->phase, 0.3) *
+  const double factor = scene.media[0].sigma_s.g * evaluate(scene.media[0].phase, 0.3) *
                         std::get<Directional>(scene.lights.at(0)).irradiance.g;
   EXPECT_NEAR(factor, 1.853, 1e-6);
 }
@@ -333,11 +333,11 @@ TEST(Overrides, change_any_value_by_its_path) {
                                    "render.spp=64", "camera.position.1=7", "render.filter=box",
                                    "render.estimator=distance+ratio", "media.0.sigma_a=0"});
   EXPECT_EQ(std::get<Directional>(scene.lights[0]).irradiance, Rgb<double>(1, 2, 3));
-  EXPECT_EQ(std::get<HenyeyGreenstein>(scene.medium->phase).g, 0.5);
+  EXPECT_EQ(std::get<HenyeyGreenstein>(scene.media[0].phase).g, 0.5);
   EXPECT_EQ(scene.render.spp, 64);
   EXPECT_EQ(scene.render.filter, PixelFilter::box);
   EXPECT_EQ(scene.render.estimator, "distance+ratio");
-  EXPECT_EQ(scene.medium->sigma_t, scene.medium->sigma_s);
+  EXPECT_EQ(scene.media[0].sigma_t, scene.media[0].sigma_s);
 }
 
 TEST(Overrides, are_named_in_errors) {
@@ -379,7 +379,8 @@ elevation = 30
   expect_near(direction(sun, {"lights.0.azimuth=90", "lights.0.elevation=0"}), {-1, 0, 0});
   const auto sigma_t = [](const std::string& keys, const std::vector<Override>& changes) {
     return parse_scene("[[media]]\nshape = {type = \"box\"}\n" + keys, "fog.toml", changes)
-        .medium->sigma_t.g;
+        .media[0]
+        .sigma_t.g;
   };
   EXPECT_DOUBLE_EQ(sigma_t("albedo = 1\nsigma_t = 2\n", {"media.0.visibility=39.12"}), 0.1);
   EXPECT_DOUBLE_EQ(sigma_t("albedo = 1\nvisibility = 2\n", {"media.0.sigma_t=3"}), 3);
@@ -389,8 +390,8 @@ elevation = 30
       parse_scene(fog + "phase = {type = \"henyey-greenstein\", g = 0.1}\n", "fog.toml",
                   {"media.0.phase.type=isotropic", "media.0.shape.type=convex",
                    "media.0.shape.points=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]]"});
-  EXPECT_TRUE(std::holds_alternative<Isotropic>(scene.medium->phase));
-  EXPECT_EQ(std::get<Convex>(scene.medium->shape).face_count, 4);
+  EXPECT_TRUE(std::holds_alternative<Isotropic>(scene.media[0].phase));
+  EXPECT_EQ(std::get<Convex>(scene.media[0].shape).face_count, 4);
 }
 
 TEST(Overrides, are_the_place_of_errors_that_come_of_them) {

@@ -104,7 +104,7 @@ TEST(StandIn, sees_a_thing_from_outside) {
   EXPECT_THAT(stand_in.remark({}), HasSubstr("a camera outside at "));
   const Scene scene = scene_of(stand_in, cube());
   EXPECT_GT(length(scene.camera.position - Vec3<double>{1, 1, 1}), 3);
-  const Box& fog = std::get<Box>(scene.medium->shape);
+  const Box& fog = std::get<Box>(scene.media[0].shape);
   for (int k = 0; k < 3; ++k) {
     EXPECT_LT(fog.min[k], 0);
     EXPECT_GT(fog.max[k], 2);
@@ -124,7 +124,7 @@ TEST(StandIn, sees_a_room_from_inside_with_the_sun_in_its_window) {
 
 /// The part of the points in the camera's view, spread over the fog, that the sun reaches.
 double lit_part(const Model& model, const Scene& scene) {
-  const Box& fog = std::get<Box>(scene.medium->shape);
+  const Box& fog = std::get<Box>(scene.media[0].shape);
   const Vec3<double> sun = std::get<Directional>(scene.lights.at(0)).toward();
   const Vec3<double> view = normalize(scene.camera.target - scene.camera.position);
   std::vector<Sight> sights;
@@ -177,7 +177,7 @@ TEST(StandIn, makes_a_scene_of_a_model_file) {
   write_text(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Scene scene = load_scene(file, {"render.spp=3", "lights.0.azimuth=10", "camera.fov=20"});
   ASSERT_EQ(scene.objects.size(), 1U);
-  EXPECT_TRUE(scene.medium);
+  EXPECT_FALSE(scene.media.empty());
   EXPECT_EQ(scene.render.spp, 3);
   EXPECT_EQ(scene.camera.fov, 20);
   EXPECT_THAT(scene.assumptions, Contains(StartsWith("assumed: a camera outside at ")));

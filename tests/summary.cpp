@@ -40,17 +40,17 @@ Summary summary_with(const std::vector<Override>& changes) {
 
 TEST(Summary, measures_the_fog) {
   const Summary s = summary_with({});
-  ASSERT_TRUE(s.medium);
-  EXPECT_DOUBLE_EQ(s.medium->across.value(), 4);
-  EXPECT_DOUBLE_EQ(s.medium->optical_depth.r, 0.8);
-  EXPECT_DOUBLE_EQ(s.medium->optical_depth.b, 1.6);
-  EXPECT_DOUBLE_EQ(s.medium->mean_free_path.r, 5);
-  EXPECT_DOUBLE_EQ(s.medium->mean_free_path.g, 4);
-  EXPECT_DOUBLE_EQ(s.medium->albedo.b, 0.25);
-  EXPECT_EQ(s.medium->phase, "henyey-greenstein, g = 0.25");
-  EXPECT_TRUE(s.medium->camera_inside);
-  EXPECT_DOUBLE_EQ(s.medium->to_target, 2.5);
-  EXPECT_DOUBLE_EQ(s.medium->exit.value(), 3.5);
+  ASSERT_EQ(s.media.size(), 1u);
+  EXPECT_DOUBLE_EQ(s.media[0].across.value(), 4);
+  EXPECT_DOUBLE_EQ(s.media[0].optical_depth.r, 0.8);
+  EXPECT_DOUBLE_EQ(s.media[0].optical_depth.b, 1.6);
+  EXPECT_DOUBLE_EQ(s.media[0].mean_free_path.r, 5);
+  EXPECT_DOUBLE_EQ(s.media[0].mean_free_path.g, 4);
+  EXPECT_DOUBLE_EQ(s.media[0].albedo.b, 0.25);
+  EXPECT_EQ(s.media[0].phase, "henyey-greenstein, g = 0.25");
+  EXPECT_TRUE(s.media[0].camera_inside);
+  EXPECT_DOUBLE_EQ(s.media[0].to_target, 2.5);
+  EXPECT_DOUBLE_EQ(s.media[0].exit.value(), 3.5);
 }
 
 TEST(Summary, counts) {

@@ -90,7 +90,7 @@ TEST_P(EveryArithmetic, a_wall_without_fog_reflects_albedo_over_pi) {
 
 TEST_P(EveryArithmetic, a_wall_inside_the_fog_is_dimmed_on_both_legs) {
   Scene scene = one_pixel();
-  scene.medium = fog(Colour(0.), {0.3, 1, 3});
+  scene.media = {fog(Colour(0.), {0.3, 1, 3})};
   scene.objects = {wall_at(-0.5, Colour(0.6)).object("wall")};
   scene.lights = {sun({0, 0, 1}, Colour(2.))};
   // The camera leg from z = 1 to -0.5 is 1.5 m, and so is the light's.
@@ -100,7 +100,7 @@ TEST_P(EveryArithmetic, a_wall_inside_the_fog_is_dimmed_on_both_legs) {
 
 TEST_P(EveryArithmetic, a_wall_beyond_the_fog_is_seen_and_lit_through_all_of_it) {
   Scene scene = one_pixel();
-  scene.medium = fog(Colour(0.), {0.3, 1, 3});
+  scene.media = {fog(Colour(0.), {0.3, 1, 3})};
   scene.objects = {wall_at(-3, Colour(0.6)).object("wall")};
   scene.lights = {sun({0, 0, 1}, Colour(2.))};
   const Film film = render(scene);
@@ -111,7 +111,7 @@ TEST_P(EveryArithmetic, a_wall_beyond_the_fog_is_seen_and_lit_through_all_of_it)
 TEST_P(EveryArithmetic, a_camera_in_the_fog_sees_a_shorter_leg) {
   Scene scene = one_pixel();
   scene.camera.position = {0, 0, 0.25};
-  scene.medium = fog(Colour(0.), Colour(0.8));
+  scene.media = {fog(Colour(0.), Colour(0.8))};
   scene.objects = {wall_at(-0.5, Colour(0.6)).object("wall")};
   scene.lights = {sun({0, 0, 1}, Colour(2.))};
   // Light comes from behind the camera: 0.75 m to the eye, 1.5 m from the light. Nobody sees the
@@ -123,14 +123,14 @@ TEST_P(EveryArithmetic, a_camera_in_the_fog_sees_a_shorter_leg) {
 TEST_P(EveryArithmetic, a_camera_in_the_fog_looks_out_of_it) {
   Scene scene = one_pixel();
   scene.camera.position = {0, 0, 0.25};
-  scene.medium = fog(Colour(0.), Colour(0.8));
+  scene.media = {fog(Colour(0.), Colour(0.8))};
   scene.background = {1, 2, 3};
   expect_colour(render(scene).radiance(0, 0), Colour(1, 2, 3) * std::exp(-0.8 * 1.25), "radiance");
 }
 
 TEST_P(EveryArithmetic, ambient_light_reaches_surfaces_whole_and_no_fog) {
   Scene scene = one_pixel();
-  scene.medium = fog(Colour(0.5), Colour(0.5));
+  scene.media = {fog(Colour(0.5), Colour(0.5))};
   scene.ambient = {1, 2, 3};
   scene.objects = {wall_at(-0.5, {0.6, 0.3, 0.1}).object("wall")};
   const Film film = render(scene);
@@ -140,7 +140,7 @@ TEST_P(EveryArithmetic, ambient_light_reaches_surfaces_whole_and_no_fog) {
 
 TEST_P(EveryArithmetic, the_background_is_seen_through_the_fog) {
   Scene scene = one_pixel();
-  scene.medium = fog(Colour(0.), {0.3, 1, 3});
+  scene.media = {fog(Colour(0.), {0.3, 1, 3})};
   scene.background = {1, 2, 3};
   const Film film = render(scene);
   expect_colour(film.radiance(0, 0), test::exp_of({0.3, 1, 3}, 2) * Colour(1, 2, 3), "radiance");
@@ -153,8 +153,8 @@ TEST_P(EveryArithmetic, the_background_is_seen_through_the_fog) {
 TEST_P(EveryArithmetic, fog_glows_up_to_the_first_surface) {
   for (double z : {-0.5, -3.}) {  // inside, beyond
     Scene scene = one_pixel();
-    scene.medium = fog(Colour(0.), {0.3, 1e-9, 3});
-    scene.medium->emission = {0.1, 0.2, 0.3};
+    scene.media = {fog(Colour(0.), {0.3, 1e-9, 3})};
+    scene.media[0].emission = {0.1, 0.2, 0.3};
     scene.objects = {wall_at(z, Colour(0.)).object("wall")};
     const double s = z > -1 ? 1.5 : 2;
     const Colour want(0.1 * (1 - std::exp(-0.3 * s)) / 0.3, 0.2 * s,
@@ -168,8 +168,8 @@ TEST_P(EveryArithmetic, glowing_fog_that_a_ray_misses_adds_nothing) {
     Scene scene = one_pixel();
     scene.resolution = {8, 8};
     scene.camera = {.position = camera, .target = camera + Vector(0, 0, 1)};  // looking away
-    scene.medium = fog(Colour(0.5), Colour(40.));
-    scene.medium->emission = {0.1, 0.2, 0.3};
+    scene.media = {fog(Colour(0.5), Colour(40.))};
+    scene.media[0].emission = {0.1, 0.2, 0.3};
     scene.background = {1, 2, 3};
     scene.lights = {sun({0, 1, 1}, Colour(2.))};
     const Film film = render(scene);
@@ -180,7 +180,7 @@ TEST_P(EveryArithmetic, glowing_fog_that_a_ray_misses_adds_nothing) {
 
 TEST_P(EveryArithmetic, lights_add_up) {
   Scene scene = one_pixel();
-  scene.medium = fog({0.2, 0.1, 0.3}, {0.3, 1, 3});
+  scene.media = {fog({0.2, 0.1, 0.3}, {0.3, 1, 3})};
   scene.objects = {wall_at(-0.5, Colour(0.6)).object("wall")};
   const Directional suns[] = {sun({1, 2, 3}, {3, 2, 1}), sun({-1, 0.2, 2}, {0, 1, 2})};
   Colour separate;
@@ -267,9 +267,9 @@ struct Room {
                        ? Camera{.position = {0.3, 0.2, 0.8}, .target = {0, -0.2, -1}, .fov = 80}
                        : Camera{.position = {0.7, 0.9, 3.7}, .target = {0, -0.1, 0}, .fov = 38};
     if (with_fog) {
-      scene.medium = fog({0.2, 0.4, 0.9}, {0.3, 0.7, 1.6});
-      scene.medium->emission = {0.02, 0.01, 0.03};
-      scene.medium->phase = HenyeyGreenstein{0.5};
+      scene.media = {fog({0.2, 0.4, 0.9}, {0.3, 0.7, 1.6})};
+      scene.media[0].emission = {0.02, 0.01, 0.03};
+      scene.media[0].phase = HenyeyGreenstein{0.5};
     }
     scene.background = {0.3, 0.2, 0.1};
     scene.ambient = {0.05, 0.06, 0.07};

@@ -25,8 +25,10 @@ std::string text(const Rgb<double>& c) {
 
 std::string bytes(std::size_t n) { return fmt::format("{:.1f} MiB", double(n) / (1 << 20)); }
 
-void print_medium(const airlight::Medium& medium, const airlight::MediumSummary& fog) {
-  fmt::print("medium     {}\n", fog.shape);
+void print_medium(const std::string& name, const airlight::Medium& medium,
+                  const airlight::MediumSummary& fog) {
+  fmt::print("{:<10} {}\n", name, fog.shape);
+  fmt::print("           the camera is {} the medium\n", fog.camera_inside ? "inside" : "outside");
   fmt::print("           sigma_s {} /m, sigma_t {} /m, albedo {}\n", text(medium.sigma_s),
              text(medium.sigma_t), text(fog.albedo));
   fmt::print("           phase {}\n", fog.phase);
@@ -52,10 +54,8 @@ void print(const airlight::Scene& scene, const Summary& summary) {
       "camera     at {} looking at {}, vertical field of view {:.4g} degrees, {} x {} pixels\n",
       text(scene.camera.position), text(scene.camera.target), scene.camera.fov,
       scene.resolution.width, scene.resolution.height);
-  if (summary.medium) {
-    fmt::print("           {} the medium\n", summary.medium->camera_inside ? "inside" : "outside");
-    print_medium(*scene.medium, *summary.medium);
-  }
+  for (std::size_t i = 0; i < scene.media.size(); ++i)
+    print_medium(fmt::format("media.{}", i), scene.media[i], summary.media[i]);
   for (std::size_t i = 0; i < summary.lights.size(); ++i) {
     const airlight::LightSummary& light = summary.lights[i];
     fmt::print("lights.{}   {} from {}, irradiance {} W/m2, angular diameter {:.4g} degrees\n", i,

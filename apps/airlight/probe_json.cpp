@@ -49,6 +49,7 @@ Json list(const std::vector<T>& items) {
 Json json(const ProbedLight& l) {
   return {{"light", l.light},
           {"toward", json(l.toward)},
+          {"in_pieces", l.in_pieces},
           {"strength", json(l.strength)},
           {"transmittance_integral", json(l.transmittance_integral)},
           {"nodes", list(l.nodes)},

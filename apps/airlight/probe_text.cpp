@@ -52,9 +52,16 @@ class Writer {
   }
 
   void light(const ProbedLight& light) {
-    line("  lights.{}: comes from {}; sigma_s p E = {} W/(m3 sr)", light.light, text(light.toward),
-         text(light.strength));
-    line("    T, the integral of transmittance, = {} m", text(light.transmittance_integral));
+    if (light.in_pieces) {
+      line("  lights.{}: comes from {}; E = {} W/m2", light.light, text(light.toward),
+           text(light.strength));
+      line("    the integral of sigma_s p times transmittance = {} /sr",
+           text(light.transmittance_integral));
+    } else {
+      line("  lights.{}: comes from {}; sigma_s p E = {} W/(m3 sr)", light.light,
+           text(light.toward), text(light.strength));
+      line("    T, the integral of transmittance, = {} m", text(light.transmittance_integral));
+    }
     line("    trapezoids between   t [m]        way to the light [m]   optical depth");
     for (const ProbedNode& node : light.nodes)
       line("                         {:<12.6g} {:<22.6g} {}", node.t, node.length,
@@ -64,7 +71,8 @@ class Writer {
       lit += fmt::format("{}{:.4g} to {:.4g} m", lit.empty() ? "" : ", ", from, to);
     line("    lit: {}", lit.empty() ? "nowhere" : lit);
     if (!light.samples.empty())
-      line("    sample   t [m]        pdf [1/m]    visibility   weight [m]");
+      line("    sample   t [m]        pdf [1/m]    visibility   weight [{}]",
+           light.in_pieces ? "1/sr" : "m");
     for (const ProbedSample& s : light.samples)
       line("    {:<8} {:<12.6g} {:<12.6g} {:<12} {}", s.index, s.t, s.pdf, text(s.visibility),
            text(s.weight));

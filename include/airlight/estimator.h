@@ -5,7 +5,7 @@
 #include "lights.h"
 #include "math/random.h"
 #include "medium.h"
-#include "section.h"
+#include "section_in_pieces.h"
 #include "world.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
@@ -92,6 +92,36 @@ Channels<F, channels> extinction(const Medium& medium) noexcept {
   Channels<F, channels> sigma_t;
   for (int c = 0; c < channels; ++c) sigma_t[c] = F(Scalar<F>(medium.sigma_t[c]));
   return sigma_t;
+}
+
+/// Whether one channel does for all in a medium's space.
+template <class Space>
+bool is_grey(const Medium& medium, const Space& space) noexcept {
+  if constexpr (requires { space.is_grey(); })
+    return space.is_grey();
+  else
+    return medium.is_grey();
+}
+
+/// A camera ray's section for light from w, in the space's coordinates.
+template <Real F, int channels, class Space>
+Section<F, channels, Space> section_along(const Medium& medium, const Space& space,
+                                          const MediumRay<F>& ray, Vec3<F> w) noexcept {
+  if constexpr (InPieces<Space>)
+    return {space, ray.entry, w, ray.t_max, medium};
+  else
+    return {space, ray.entry, w, ray.t_max, extinction<F, channels>(medium)};
+}
+
+/// What of light with this irradiance a metre scatters, and the phase function, as far as they are
+/// the same all along a ray: in pieces, the section knows what scatters where.
+template <class Space>
+Rgb<double> strength_along(const Medium& medium, const Rgb<double>& irradiance) noexcept {
+  return InPieces<Space> ? irradiance : medium.sigma_s * irradiance;
+}
+template <class Space, Real F>
+F phase_along(const Medium& medium, F cosine) noexcept {
+  return InPieces<Space> ? F(1) : evaluate(medium.phase, cosine);
 }
 
 /// One or three channels as a colour.

@@ -23,8 +23,9 @@ class Joined {
   static constexpr int most_faces = 96;
   /// A body of n faces makes at most 2 n + 4 kinks: n − 1 of exit and as many of entry (of a packet
   /// whose lanes differ in w; n − 2 together if they don't), and two each where the line along w
-  /// leaves the body's outline, where entry changes sign and at faces parallel to w.
-  static constexpr int most_kinks = 2 * most_faces + 4 * most_parts;
+  /// leaves the body's outline, where entry changes sign and at faces parallel to w; one more where
+  /// the light starts at a plane.
+  static constexpr int most_kinks = 2 * most_faces + 5 * most_parts;
   static constexpr int most_pieces = most_kinks + 1;
   static constexpr int most_stretches = most_parts;
   static constexpr bool in_pieces = true;
@@ -83,14 +84,7 @@ class Joined {
   /// From the first entry to the last exit.
   template <Real F>
   Interval<F> clip(const LocalRay<F>& ray) const noexcept {
-    Interval<F> hull{F(far_away), F(0)};
-    for (int j = 0; j < part_count_; ++j) {
-      const Interval<F> inside = clip(parts_[j], ray);
-      const Mask<F> met = inside.t_exit > inside.t_enter;
-      hull.t_enter = min(hull.t_enter, select(met, inside.t_enter, F(far_away)));
-      hull.t_exit = max(hull.t_exit, select(met, inside.t_exit, F(0)));
-    }
-    return hull;
+    return stretches(ray, media_[0]).hull();
   }
 
   template <Real F>
@@ -111,12 +105,12 @@ class Joined {
   /// `inside` are the ray's own stretches; light travels against w.
   template <int channels, Real F>
   void cut(const LocalRay<F>& ray, Vec3<F> w, F t_max, const StretchesOf<F>& inside,
-           PiecesOf<F, channels>& pieces) const noexcept {
-    const Lines<F> lines(*this, ray, w, t_max);
+           PiecesOf<F, channels>& pieces, const LightStart<F>& start = {}) const noexcept {
+    const Lines<F> lines(*this, ray, w, t_max, start);
     F kinks[most_kinks];
     const int n = lines.kinks(kinks);
     sort_lanes(kinks, n);
-    set_unscaled(pieces);
+    set_scale(pieces, inside, F(0));
     pieces.t[0] = F(0);
     const F cosine = dot(w, ray.d);
     F scatters[most_parts];
@@ -151,13 +145,15 @@ class Joined {
   /// s and τ at one point of the ray for light from w, without the pieces.
   template <int channels, Real F>
   typename PiecesOf<F, channels>::Point seen(const LocalRay<F>& ray, F t, Vec3<F> w,
-                                             const StretchesOf<F>& inside) const noexcept {
+                                             const StretchesOf<F>& inside,
+                                             const LightStart<F>& start = {}) const noexcept {
     typename PiecesOf<F, channels>::Point result{};
     const F cosine = dot(w, ray.d);
     const LocalRay<F> out{ray(t), w};
     for (int j = 0; j < part_count_; ++j) {
       const Interval<F> beyond = clip(parts_[j], out);
-      const F way = inside.length_before(j, t) + max(beyond.t_exit - beyond.t_enter, F(0));
+      const F way =
+          inside.length_before(j, t) + max(min(beyond.t_exit, start(t)) - beyond.t_enter, F(0));
       const F here = select(inside.holds(j, t), evaluate(media_[j].phase, cosine), F(0));
       for (int c = 0; c < channels; ++c) {
         result.depth[c] = fma(F(Scalar<F>(media_[j].sigma_t[c])), way, result.depth[c]);
@@ -167,9 +163,11 @@ class Joined {
     return result;
   }
 
-  template <int channels, Real F>
-  static void set_unscaled(PiecesOf<F, channels>& pieces) noexcept {
-    for (int c = 0; c < channels; ++c) pieces.sigma_t[c] = pieces.sigma_s[c] = F(1);
+  /// Every medium has coefficients of its own: pieces hold depths themselves.
+  template <Real F, class Cut>
+  static void set_scale(Cut& pieces, const StretchesOf<F>&, F) noexcept {
+    for (F& sigma : pieces.sigma_t) sigma = F(1);
+    for (F& sigma : pieces.sigma_s) sigma = F(1);
   }
 
  private:
@@ -187,7 +185,8 @@ class Joined {
   template <Real F>
   class Lines {
    public:
-    Lines(const Joined& joined, const LocalRay<F>& ray, Vec3<F> w, F t_max) noexcept
+    Lines(const Joined& joined, const LocalRay<F>& ray, Vec3<F> w, F t_max,
+          const LightStart<F>& start) noexcept
         : joined_(joined), t_max_(t_max) {
       const F least = F(parallel_below<F>) * airlight::length(w);
       int fronts = 0, backs = 0;
@@ -210,6 +209,7 @@ class Joined {
           const Mask<F> parallel = !(is_front | is_back);
           if (any(parallel)) keep_below(above, climb, parallel, from, to);
         }
+        if (any(start.a < F(far_away))) front_[fronts++] = {start.a, start.b};
         range.front_end = fronts, range.back_end = backs;
         range.from = from, range.to = to;
         // Where the line along w through p(t) meets the body, ahead of p(t).
@@ -312,7 +312,7 @@ class Joined {
 
     const Joined& joined_;
     F t_max_;
-    Line front_[most_faces], back_[most_faces];
+    Line front_[most_faces + most_parts], back_[most_faces];
     Range ranges_[most_parts];
   };
 

@@ -22,11 +22,46 @@ struct SpaceBelowStart {
   const Space& space;
   F a, b;
 
+  Interval<F> clip(const LocalRay<F>& ray) const noexcept { return space.clip(ray); }
   Outward<F> outward(Vec3<F> w) const noexcept { return space.outward(w); }
+  F distance_out(Vec3<F> p, const Outward<F>& out) const noexcept {
+    return space.distance_out(p, out);
+  }
 
   WayOut<F, max_segments> way_out(const LocalRay<F>& ray, const Outward<F>& out,
                                   F t_max) const noexcept {
     return space.way_out(ray, out, t_max).with_line(a, b);
+  }
+};
+
+/// The same where the optical depth is linear in pieces.
+template <Real F, InPieces Space>
+struct SpaceBelowStart<F, Space> {
+  static constexpr bool in_pieces = true;
+  static constexpr int most_stretches = Space::most_stretches;
+  template <Real G>
+  using StretchesOf = typename Space::template StretchesOf<G>;
+  template <Real G, int channels>
+  using PiecesOf = typename Space::template PiecesOf<G, channels>;
+
+  const Space& space;
+  F a, b;
+
+  StretchesOf<F> stretches(const LocalRay<F>& ray, const Medium& medium) const noexcept {
+    return space.stretches(ray, medium);
+  }
+  template <int channels>
+  void cut(const LocalRay<F>& ray, Vec3<F> w, F t_max, const StretchesOf<F>& inside,
+           PiecesOf<F, channels>& pieces) const noexcept {
+    space.template cut<channels>(ray, w, t_max, inside, pieces, LightStart<F>{a, b});
+  }
+  template <int channels>
+  auto seen(const LocalRay<F>& ray, F t, Vec3<F> w, const StretchesOf<F>& inside) const noexcept {
+    return space.template seen<channels>(ray, t, w, inside, LightStart<F>{a, b});
+  }
+  template <class Cut>
+  static void set_scale(Cut& pieces, const StretchesOf<F>& inside, F cosine) noexcept {
+    Space::set_scale(pieces, inside, cosine);
   }
 };
 
@@ -54,7 +89,10 @@ LitPart<SpaceBelowStart<F, Space>, MediumRay<F>> lit_part(const Collimated& beam
   part.t_enter = ray.t_enter + begin;
   part.t_max = select(meets, last - first, F(0));
   part.active = meets;
-  part.dimmed *= exp_minus(Rgb<F>(medium.sigma_t) * begin);
+  if constexpr (InPieces<Space>)
+    part.dimmed *= space.stretches(ray.entry, medium).transmittance(begin);
+  else
+    part.dimmed *= exp_minus(Rgb<F>(medium.sigma_t) * begin);
   const F to_start = beam.reach(ray.origin + ray.direction * part.t_enter);
   return {{space, to_start, dot(ray.direction, Vec3<F>(beam.direction))}, part};
 }

@@ -85,7 +85,7 @@ struct Pieces {
     Depths near = begin[0], far = end[0], scatters = strength[0];
     F t0 = t[0], t1 = t[1];
     for (int i = 1; i < count; ++i) {
-      const Mask<F> here = t_ >= t[i] & t[i + 1] > t[i];
+      const Mask<F> here = (t_ >= t[i]) & (t[i + 1] > t[i]);
       t0 = select(here, t[i], t0);
       t1 = select(here, t[i + 1], t1);
       for (int k = 0; k < depths; ++k) {

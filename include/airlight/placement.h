@@ -47,14 +47,14 @@ struct ChannelPick {
   }
 };
 
-/// Σ_j chance_j · density_j, and the weights e^{−σ_c length} / that: the one-sample balance
-/// heuristic over channels, by which the weight of channel c never exceeds its integral over its
-/// chance.
+/// Σ_j chance_j · density_j, and the weights of what reaches the camera over that: the one-sample
+/// balance heuristic over channels, by which the weight of channel c never exceeds its integral
+/// over its chance.
 template <Real F, int channels>
-Channels<F, channels> balanced_weights(const Channels<F, channels>& transmittance, F pdf) noexcept {
+Channels<F, channels> balanced_weights(const Channels<F, channels>& reaching, F pdf) noexcept {
   const F inverse = select(pdf > F(0), F(1) / select(pdf > F(0), pdf, F(1)), F(0));
   Channels<F, channels> result;
-  for (int c = 0; c < channels; ++c) result[c] = transmittance[c] * inverse;
+  for (int c = 0; c < channels; ++c) result[c] = reaching[c] * inverse;
   return result;
 }
 
@@ -62,8 +62,8 @@ Channels<F, channels> balanced_weights(const Channels<F, channels>& transmittanc
 ///
 ///     placed = placement.on(section, strength)   strength: what a metre scatters, by channel
 ///     placed.sample(u)           t in [0, t_max], monotone in u within a channel  [m]
-///     placed.pdf(t, length)      its density; length: of the way through p(t)  [1/m]
-///     placed.weights(t, length)  e^{−σ_c length} / pdf for each channel  [m]
+///     placed.pdf(t, at)          its density; at = section.at(t)  [1/m]
+///     placed.weights(t, at)      section.reaching(at) / pdf for each channel  [m]
 template <class P>
 concept Placement = requires {
   { P::name } -> std::convertible_to<const char*>;

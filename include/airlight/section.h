@@ -16,6 +16,8 @@ struct Section {
   static constexpr int channels = channels_;
   static constexpr int max_segments = Space::max_segments;
   using Outward = typename Space::template Outward<F>;
+  /// What is known of a point of the ray: the length of the whole way through it.  [m]
+  using Point = F;
 
   const Space& space;
   LocalRay<F> ray;  ///< from the entry, in the shape's coordinates
@@ -46,10 +48,62 @@ struct Section {
     }
   }
 
+  /// The point at t.
+  F at(F t) const noexcept { return way.length_at(t); }
+
+  /// The same without the way out, by intersecting the shape there; light starts `reach` away.
+  F intersected(F t, F reach) const noexcept {
+    return t + min(space.clip(LocalRay<F>{ray(t), w}).t_exit, reach);
+  }
+
+  /// The same for light from elsewhere, `toward` in the shape's coordinates.
+  F seen(F t, Vec3<F> toward) const noexcept {
+    return t + space.distance_out(ray(t), space.outward(toward));
+  }
+
   /// e^{−σ length} for each channel.
   Channels<F, channels> transmittance(F length) const noexcept {
     Channels<F, channels> result;
     for (int c = 0; c < channels; ++c) result[c] = exp(-sigma_t[c] * length);
+    return result;
+  }
+
+  /// What reaches the camera of what is scattered at a point, but for what is the same all along
+  /// the ray.
+  Channels<F, channels> reaching(F length) const noexcept { return transmittance(length); }
+
+  /// A distance with density e^{−σ length} / T of the channel picked, lane by lane.
+  template <class Pick>
+  F draw(const Pick& pick) const noexcept {
+    if constexpr (channels == 1) {
+      return trapezoids[0].sample(way, pick.u);
+    } else {
+      // The trapezoids of the channel drawn, put together lane by lane: one inversion instead of
+      // three.
+      Trapezoids<F, max_segments> drawn;
+      const auto of = [&](auto member) {
+        return pick.of({member(trapezoids[0]), member(trapezoids[1]), member(trapezoids[2])});
+      };
+      drawn.total = of([](const auto& t) { return t.total; });
+      for (int i = 0; i <= 1 || i <= way.segments; ++i)  // one segment at least
+        drawn.depth_at[i] = of([i](const auto& t) { return t.depth_at[i]; });
+      for (int i = 0; i < 1 || i < way.segments; ++i) {
+        drawn.integral[i] = of([i](const auto& t) { return t.integral[i]; });
+        drawn.drop[i] = of([i](const auto& t) { return t.drop[i]; });
+      }
+      return drawn.sample(way, pick.u);
+    }
+  }
+
+  /// The density of `draw` in the first channel.  [1/m]
+  F density(F length) const noexcept { return trapezoids[0].pdf(length, sigma_t[0]); }
+
+  /// The part of `integral` between two points of the ray.
+  Channels<F, channels> integral_between(F from, F to) const noexcept {
+    const auto part = way.clipped(from, to);
+    Channels<F, channels> result;
+    for (int c = 0; c < channels; ++c)
+      result[c] = Trapezoids<F, max_segments>(part, sigma_t[c]).transmittance_integral();
     return result;
   }
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "math/sort.h"
 #include "medium.h"
 #include "pieces.h"
 
@@ -31,19 +32,72 @@ struct Section<F, channels_, Space> {
     integral = pieces.whole();
   }
 
-  /// What is known of the point at t.
   Point at(F t) const noexcept { return pieces.at(t); }
-
-  /// The same for light from elsewhere, without the pieces.
+  Point intersected(F t, F /*reach*/) const noexcept { return seen(t, w); }
   Point seen(F t, Vec3<F> toward) const noexcept {
     return space.template seen<channels>(ray, t, toward, inside);
   }
 
-  /// What a metre scatters there and reaches the camera, without irradiance.
-  Channels<F, channels> reaching(const Point& at) const noexcept {
+  Channels<F, channels> transmittance(const Point& at) const noexcept {
     Channels<F, channels> result;
-    for (int c = 0; c < channels; ++c) result[c] = at.strength[c] * exp(-at.depth[c]);
+    for (int c = 0; c < channels; ++c) result[c] = exp(-at.depth[c]);
     return result;
+  }
+  Channels<F, channels> reaching(const Point& at) const noexcept {
+    Channels<F, channels> result = transmittance(at);
+    for (int c = 0; c < channels; ++c) result[c] = at.strength[c] * result[c];
+    return result;
+  }
+
+  /// The way from the camera alone, in pieces: its transmittance times what scatters.
+  auto camera_way() const noexcept {
+    constexpr bool one_medium = std::tuple_size_v<typename Cut::Depths> < channels;
+    Pieces<F, channels, int(std::tuple_size_v<typename Cut::Depths>), 2 * Space::most_stretches + 1>
+        camera;
+    const F cosine = dot(w, ray.d);
+    space.set_scale(camera, inside, cosine);
+    F ends[2 * Space::most_stretches];
+    F phases[one_medium ? 1 : Space::most_stretches];
+    for (int j = 0; j < inside.count; ++j) {
+      ends[2 * j] = inside.enter[j], ends[2 * j + 1] = inside.leave[j];
+      if constexpr (!one_medium) phases[j] = evaluate(inside.medium(j).phase, cosine);
+    }
+    sort_lanes(ends, 2 * inside.count);
+    camera.t[0] = F(0);
+    for (int i = 0; i <= 2 * inside.count; ++i) {
+      const bool last = i == 2 * inside.count;
+      const F t0 = camera.t[camera.count];
+      const F t1 = last ? t_max : clamp(ends[i], t0, t_max);
+      if (!any(t1 > t0) && !(last && camera.count == 0)) continue;
+      const F middle = fma(t1 - t0, F(0.5), t0);
+      typename Cut::Depths from{}, to{}, strength{};
+      for (int j = 0; j < inside.count; ++j)
+        for (std::size_t k = 0; k < from.size(); ++k) {
+          const Medium& medium = inside.medium(j);
+          const F sigma(Scalar<F>(one_medium ? 1 : medium.sigma_t[int(k)]));
+          const F scatters =
+              one_medium ? F(1) : F(Scalar<F>(medium.sigma_s[int(k)])) * phases[one_medium ? 0 : j];
+          from[k] = fma(sigma, inside.length_before(j, t0), from[k]);
+          to[k] = fma(sigma, inside.length_before(j, t1), to[k]);
+          strength[k] = select(inside.holds(j, middle), scatters, strength[k]);
+        }
+      camera.add(t1, from, to, strength);
+    }
+    camera.integrate();
+    return camera;
+  }
+
+  template <class Pick>
+  F draw(const Pick& pick) const noexcept {
+    return pieces.sample(pick);
+  }
+  F density(const Point& at) const noexcept {
+    const F total = pieces.total[0];
+    return at.strength[0] * exp(min(pieces.depth[0] - at.depth[0], F(0))) /
+           select(total > F(0), total, F(1));
+  }
+  Channels<F, channels> integral_between(F from, F to) const noexcept {
+    return pieces.between(from, to);
   }
 };
 

@@ -51,12 +51,21 @@ concept ConvexShape = Shape<S> && requires(const S shape, Vec3<double> v) {
   { shape.space().distance_out(v, shape.space().outward(v)) } -> std::same_as<double>;
 };
 
+/// A plane that light starts at: the distance to it from the point p(t) of a ray, along w, is
+/// a + b t; by default it is out of reach.
+template <Real F>
+struct LightStart {
+  F a{F(far_away)}, b{F(0)};
+
+  F operator()(F t) const noexcept { return fma(b, t, a); }
+};
+
 /// A space in which the optical depth of the whole way is not concave, as in one convex body, but
 /// linear in pieces: of media side by side, or inside a concave boundary.
 ///
 ///     space.stretches(ray, medium)        the ray's own stretches inside
-///     space.cut(ray, w, t_max, stretches, pieces)  fills `Pieces` for light from w
-///     space.seen(ray, t, w, stretches)    a point of them, without the others
+///     space.cut(ray, w, t_max, stretches, pieces, start)  fills `Pieces` for light from w
+///     space.seen(ray, t, w, stretches, start)  a point of them, without the others
 template <class Space>
 concept InPieces = requires {
   requires Space::in_pieces;

@@ -23,6 +23,27 @@ struct Stretches {
     ++count;
   }
 
+  /// Leaves out what lies before t.
+  void begin_at(F t) noexcept {
+    for (int j = 0; j < count; ++j) {
+      enter[j] = max(enter[j], t);
+      leave[j] = max(leave[j], enter[j]);
+    }
+  }
+
+  /// From the first entry to the last exit; empty where nothing is met.
+  Interval<F> hull() const noexcept {
+    if (count == 0) return {F(0), F(0)};
+    if (count == 1) return {enter[0], leave[0]};
+    Interval<F> result{F(far_away), F(0)};
+    for (int j = 0; j < count; ++j) {
+      const Mask<F> met = leave[j] > enter[j];
+      result.t_enter = min(result.t_enter, select(met, enter[j], F(far_away)));
+      result.t_exit = max(result.t_exit, select(met, leave[j], F(0)));
+    }
+    return result;
+  }
+
   /// The part of stretch j before t.  [m]
   F length_before(int j, F t) const noexcept { return max(min(t, leave[j]) - enter[j], F(0)); }
 

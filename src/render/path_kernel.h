@@ -150,20 +150,18 @@ class PathKernel {
     MediumRay<F> ray;
     ray.t_max = F(0);
     ray.active = ray.t_max > F(0);
-    Interval<F> inside{F(0), F(0)};
+    const LocalRay<F> local{space_.point(paths_.origin), space_.vector(paths_.direction)};
+    auto inside = stretches_of(medium_, space_, local);
+    inside.begin_at(paths_.t_from);
     if (medium_) {
-      const LocalRay<F> local{space_.point(paths_.origin), space_.vector(paths_.direction)};
-      inside = space_.clip(local);
-      inside.t_enter = max(inside.t_enter, paths_.t_from);
-      inside.t_exit = max(inside.t_exit, inside.t_enter);
       const F t_end = select(alive, select(found, hit.t, F(far_away)), F(0));
-      ray = medium_ray(CameraRay<F>{paths_.origin, paths_.direction, t_end}, local, inside);
+      ray = medium_ray(CameraRay<F>{paths_.origin, paths_.direction, t_end}, local, inside.hull());
       ray.dimmed = paths_.throughput;
     }
     const SurfaceLight<F, Space, PathSampler<F>> surfaces(frame_, medium_, space_, paths_.points);
     if (medium_ && medium_->emission != Rgb<double>())
       add(Frame::ungrouped,
-          paths_.throughput * surfaces.emitted(inside, ray.t_enter, ray.t_enter + ray.t_max),
+          paths_.throughput * inside.emitted(ray.t_enter, ray.t_enter + ray.t_max),
           !paths_.via_surface, alive);
     Crossing<F> at{};
     if (any(found)) at = surfaces.crossing(hit, found, paths_.origin, paths_.direction);
@@ -434,19 +432,12 @@ class PathKernel {
 
 template <Real F, class Watcher>
 void render_paths(const Frame& frame, Tile& tile, Watcher& watcher) {
-  if (!frame.scene.medium) {
-    const Unbounded::Space nowhere;
-    return PathKernel<F, Unbounded::Space, Watcher>(frame, tile, nullptr, nowhere, watcher)
-        .render();
-  }
-  std::visit(
-      [&](const auto& shape) {
-        const auto space = shape.space();
-        PathKernel<F, std::remove_const_t<decltype(space)>, Watcher>(
-            frame, tile, &*frame.scene.medium, space, watcher)
-            .render();
-      },
-      frame.scene.medium->shape);
+  with_space(frame.scene.media, [&](const Medium* medium, const auto& space) {
+    using Space = std::remove_cvref_t<decltype(space)>;
+    // Settings that ask for paths in pieces have been refused.
+    if constexpr (!InPieces<Space>)
+      PathKernel<F, Space, Watcher>(frame, tile, medium, space, watcher).render();
+  });
 }
 
 template <Real F>

@@ -9,6 +9,7 @@
 
 #include "error.h"
 #include "scene/described.h"
+#include "scene/joined_media.h"
 
 namespace airlight {
 namespace {
@@ -134,13 +135,21 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
         image.width, image.height, image.channels, scene.resolution.width,
         scene.resolution.height));
   check_paths(estimator, settings);
-  if (!scene.medium) return;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (const char* reason =
-            std::visit([&](const auto& e) { return e.unsupported(*scene.medium, scene.lights[i]); },
-                       estimator))
-      throw Error(
-          fmt::format("estimator {} cannot serve lights.{}: {}", settings.estimator, i, reason));
+  if (const auto reason = cannot_be_joined(scene.media)) throw Error("media " + *reason);
+  const bool in_pieces =
+      scene.media.size() > 1 ||
+      (scene.media.size() == 1 && std::holds_alternative<Solid>(scene.media[0].shape));
+  if (in_pieces && settings.max_depth > 1)
+    throw Error(fmt::format(
+        "render.max_depth = {} cannot serve these media: light is followed beyond its first "
+        "scattering in one medium of type box, convex or unbounded only; accepted here: 1",
+        settings.max_depth));
+  for (const Medium& medium : scene.media)
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+      if (const char* reason = std::visit(
+              [&](const auto& e) { return e.unsupported(medium, scene.lights[i]); }, estimator))
+        throw Error(
+            fmt::format("estimator {} cannot serve lights.{}: {}", settings.estimator, i, reason));
 }
 
 std::vector<std::string> light_group_names(const Scene& scene) {
@@ -153,7 +162,8 @@ std::vector<std::string> light_group_names(const Scene& scene) {
 FilmLayout film_layout(const Scene& scene, const Estimators& estimator) {
   const auto* sampled = std::get_if<Sampled>(&estimator);
   const bool ratio = sampled && std::holds_alternative<Ratio>(sampled->form);
-  const bool glows = scene.medium && scene.medium->emission != Rgb<double>();
+  const bool glows = std::ranges::any_of(
+      scene.media, [](const Medium& medium) { return medium.emission != Rgb<double>(); });
   return {.groups = int(light_group_names(scene).size()), .plain = !ratio || glows, .ratio = ratio};
 }
 

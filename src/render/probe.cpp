@@ -23,7 +23,7 @@ struct RayKeeper {
   }
 
   template <Real F, class Space>
-  void camera_ray(const SurfaceWalk<F, Space>& walk, Vec3<F> direction, Interval<F>,
+  void camera_ray(const SurfaceWalk<F, Space>& walk, Vec3<F> direction,
                   SampleRange samples) noexcept {
     ProbedRay ray;
     ray.direction = direction;
@@ -55,7 +55,7 @@ class LightProbe {
   LightProbe(const Frame& frame, const Space& space, const Sampler<double>& sampler,
              const MediumRay<double>& ray, const L& light, int light_index)
       : frame_(frame),
-        medium_(*frame.scene.medium),
+        medium_(frame.scene.media[0]),
         space_(space),
         sampler_(sampler),
         whole_ray_(ray),
@@ -64,8 +64,8 @@ class LightProbe {
         toward_(Sampled::toward<double>(light, light_index, ray.index, sampler)),
         lit_(lit_part(light, medium_, space, ray)),
         ray_(lit_.ray),
-        section_(lit_.space, ray_.entry, space.vector(toward_), ray_.t_max,
-                 extinction<double, channels>(medium_)) {
+        section_(
+            section_along<double, channels>(medium_, lit_.space, ray_, space.vector(toward_))) {
     section_.trace_way_out();
   }
 
@@ -73,8 +73,9 @@ class LightProbe {
     ProbedLight result;
     result.light = std::size_t(light_index_);
     result.toward = toward_;
-    result.strength =
-        medium_.sigma_s * light_.irradiance * evaluate(medium_.phase, dot(toward_, ray_.direction));
+    result.in_pieces = InPieces<Space>;
+    result.strength = strength_along<Space>(medium_, light_.irradiance) *
+                      phase_along<Space>(medium_, dot(toward_, ray_.direction));
     if (!ray_.active) return result;  // a beam that passes by
     result.transmittance_integral = ray_.dimmed * to_rgb(section_.integral);
     add_nodes(result);
@@ -85,23 +86,69 @@ class LightProbe {
 
  private:
   void add_nodes(ProbedLight& result) const {
-    for (int i = 0; i <= section_.way.segments; ++i) {
-      // Where fewer lines touch the envelope than there are faces, segments have no length.
-      if (i > 0 && section_.way.t[i] <= section_.way.t[i - 1]) continue;
-      const double length = section_.way.length[i];
-      const double t = ray_.t_enter + section_.way.t[i];
-      const double whole = ray_.t_enter - whole_ray_.t_enter + length;  // from the medium's edge
-      result.nodes.push_back({t, whole, medium_.sigma_t * whole});
+    if constexpr (InPieces<Space>) {
+      const std::vector<double> lengths = piece_lengths();
+      for (int i = 0; i < section_.pieces.count; ++i) {
+        const double begin = ray_.t_enter + section_.pieces.t[i];
+        const double end = ray_.t_enter + section_.pieces.t[i + 1];
+        const std::size_t k = 2 * std::size_t(i);
+        if (i == 0 || !continues(i))
+          result.nodes.push_back({begin, lengths[k], depths(section_.pieces.begin[i])});
+        result.nodes.push_back({end, lengths[k + 1], depths(section_.pieces.end[i])});
+      }
+    } else {
+      for (int i = 0; i <= section_.way.segments; ++i) {
+        // Where fewer lines touch the envelope than there are faces, segments have no length.
+        if (i > 0 && section_.way.t[i] <= section_.way.t[i - 1]) continue;
+        const double length = section_.way.length[i];
+        const double t = ray_.t_enter + section_.way.t[i];
+        const double whole = ray_.t_enter - whole_ray_.t_enter + length;  // from the medium's edge
+        result.nodes.push_back({t, whole, medium_.sigma_t * whole});
+      }
     }
+  }
+
+  /// Whether a piece begins at the depth where the one before ended, but for rounding.
+  bool continues(int i) const requires InPieces<Space> {
+    const Rgb<double> before = depths(section_.pieces.end[i - 1]);
+    const Rgb<double> after = depths(section_.pieces.begin[i]);
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(before[c] - after[c]) > 1e-9 * (1 + before[c])) return false;
+    return true;
+  }
+
+  template <class Depths>
+  Rgb<double> depths(const Depths& x) const {
+    Channels<double, channels> result;
+    for (int c = 0; c < channels; ++c) result[c] = section_.pieces.depth_of(x, c);
+    return to_rgb(result);
+  }
+
+  /// Of both ends of every piece: the depths if every medium's extinction were 1.  [m]
+  std::vector<double> piece_lengths() const requires InPieces<Space> {
+    std::vector<Medium> media = frame_.scene.media;
+    for (Medium& medium : media) medium.sigma_t = medium.sigma_s = Rgb<double>(1.);
+    std::vector<double> lengths;
+    with_space(media, [&](const Medium* first, const auto& space) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(space)>, Space>) {
+        auto section = section_along<double, 1>(*first, space, ray_, toward_);
+        section.trace_way_out();
+        for (int i = 0; i < section.pieces.count; ++i) {
+          lengths.push_back(section.pieces.begin[i][0]);
+          lengths.push_back(section.pieces.end[i][0]);
+        }
+      }
+    });
+    return lengths;
   }
 
   void add_steps(ProbedLight& result) const {
     const double width = ray_.t_max / step_count;
     for (int i = 0; i < step_count; ++i) {
-      const double t = (i + 0.5) * width, length = section_.way.length_at(t);
+      const double t = (i + 0.5) * width;
+      const auto at = section_.at(t);
       const double along = ray_.t_enter + t;
-      ProbedStep step{
-          along, pdf(t, length), ray_.dimmed * to_rgb(section_.transmittance(length)), {}};
+      ProbedStep step{along, pdf(t, at), ray_.dimmed * to_rgb(section_.transmittance(at)), {}};
       const Vec3<double> from = ray_.origin + ray_.direction * along;
       step.visibility =
           frame_.world.transmit(from, toward_, light_.reach(from), light_index_, true);
@@ -119,15 +166,15 @@ class LightProbe {
     }
   }
 
-  double pdf(double t, double length) const {
+  double pdf(double t, const typename Section<double, channels, Space>::Point& at) const {
     const auto* sampled = std::get_if<Sampled>(&frame_.estimator);
     if (!sampled) return 0;
     return std::visit(
         [&](const Placement auto& place) {
           return place
               .on(section_,
-                  sampled->template carried<double, channels>(medium_, light_, ray_.dimmed))
-              .pdf(t, length);
+                  sampled->template carried<channels, Space>(medium_, light_, ray_.dimmed))
+              .pdf(t, at);
         },
         sampled->placement);
   }
@@ -161,22 +208,22 @@ class LightProbe {
 
 void probe_lights(const Frame& frame, const Sampler<double>& sampler,
                   const MediumRay<double>& medium_ray, ProbedRay& ray, SampleRange samples) {
-  const Medium& medium = *frame.scene.medium;
   const auto probe_light = [&]<int channels>(const auto& space, const auto& light, int index) {
     LightProbe<channels, std::remove_cvref_t<decltype(space)>, std::remove_cvref_t<decltype(light)>>
         one(frame, space, sampler, medium_ray, light, index);
     ray.lights.push_back(one(samples));
   };
-  for (std::size_t i = 0; i < frame.scene.lights.size(); ++i)
-    std::visit(
-        [&](const auto& shape, const auto& light) {
-          const auto space = shape.space();
-          if (medium.is_grey())
-            probe_light.template operator()<1>(space, light, int(i));
-          else
-            probe_light.template operator()<3>(space, light, int(i));
-        },
-        medium.shape, frame.scene.lights[i]);
+  with_space(frame.scene.media, [&](const Medium* medium, const auto& space) {
+    for (std::size_t i = 0; medium && i < frame.scene.lights.size(); ++i)
+      std::visit(
+          [&](const auto& light) {
+            if (is_grey(*medium, space))
+              probe_light.template operator()<1>(space, light, int(i));
+            else
+              probe_light.template operator()<3>(space, light, int(i));
+          },
+          frame.scene.lights[i]);
+  });
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct ProbedSample {
 /// Where the way out has a kink: an end of a trapezoid.
 struct ProbedNode {
   double t = 0;               ///< [m]
-  double length = 0;          ///< from the entry to here and on to where light enters  [m]
+  double length = 0;          ///< in media, from the camera to here and on to the light  [m]
   Rgb<double> optical_depth;  ///< of that way
 };
 
@@ -42,7 +42,10 @@ struct ProbedStep {
 struct ProbedLight {
   std::size_t light = 0;  ///< index into Scene::lights
   Vec3<double> toward;    ///< unit vector
-  Rgb<double> strength;   ///< sigma_s times phase function times irradiance  [W/(m3 sr)]
+  /// Of media in pieces, where what scatters changes along the ray: `strength` is then the light's
+  /// irradiance [W/m2], and what scatters is part of integral and weights [1/sr].
+  bool in_pieces = false;
+  Rgb<double> strength;  ///< sigma_s times phase function times irradiance  [W/(m3 sr)]
   Rgb<double> transmittance_integral;  ///< T, along what the light reaches of it in the medium  [m]
   std::vector<ProbedNode> nodes;
   std::vector<ProbedSample> samples;

@@ -1,5 +1,6 @@
 #include "render/summary.h"
 
+#include <airlight/media.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,6 +42,9 @@ std::string with_parameters(const T& thing) {
 std::string shape_text(const Convex& shape) {
   return fmt::format("convex, {} faces", shape.face_count);
 }
+std::string shape_text(const Solid& shape) {
+  return fmt::format("mesh, {} triangles", shape.mesh->triangles.size());
+}
 template <class S>
 std::string shape_text(const S& shape) {
   return with_parameters(shape);
@@ -50,25 +54,35 @@ std::string shape_text(const S& shape) {
 std::optional<Vec3<double>> middle(const Box& box) { return (box.min + box.max) * 0.5; }
 std::optional<Vec3<double>> middle(const Convex& shape) { return shape.centre; }
 std::optional<Vec3<double>> middle(const Unbounded&) { return std::nullopt; }
-
-Interval<double> chord(const Shapes& shapes, Vec3<double> from, Vec3<double> direction) {
-  return std::visit(
-      [&](const auto& shape) {
-        const auto space = shape.space();
-        return space.clip(LocalRay<double>{space.point(from), space.vector(direction)});
-      },
-      shapes);
+std::optional<Vec3<double>> middle(const Solid& shape) {
+  const auto& [x, y, z] = shape.mesh->centre;
+  return Vec3<double>(x, y, z);
 }
 
+/// What of a ray lies in a medium, the last exit included; how much of it does.
+struct Chord {
+  Interval<double> inside;
+  double length = 0;
+
+  Chord(const Medium& medium, Vec3<double> from, Vec3<double> direction, double t_max = far_away) {
+    with_space({&medium, 1}, [&](const Medium* first, const auto& space) {
+      const LocalRay<double> ray{space.point(from), space.vector(direction)};
+      const auto stretches = stretches_of(first, space, ray);
+      inside = stretches.hull();
+      for (int j = 0; j < stretches.count; ++j) length += stretches.length_before(j, t_max);
+    });
+  }
+};
+
 /// The longest way through the middle of a shape along the axes.  [m]
-std::optional<double> across(const Shapes& shapes) {
-  const auto centre = std::visit([](const auto& shape) { return middle(shape); }, shapes);
+std::optional<double> across(const Medium& medium) {
+  const auto centre = std::visit([](const auto& shape) { return middle(shape); }, medium.shape);
   if (!centre) return std::nullopt;
   double longest = 0;
   for (const Vec3<double>& axis :
        {Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0), Vec3<double>(0, 0, 1)})
     longest = std::max(longest,
-                       chord(shapes, *centre, axis).t_exit + chord(shapes, *centre, -axis).t_exit);
+                       Chord(medium, *centre, axis).length + Chord(medium, *centre, -axis).length);
   return longest;
 }
 
@@ -79,16 +93,17 @@ MediumSummary summary_of(const Medium& medium, const Camera& camera) {
   const Rgb<double> inverse = each(medium.sigma_t, [](double s) { return s > 0 ? 1 / s : 0; });
   result.albedo = medium.sigma_s * inverse;
   result.mean_free_path = each(medium.sigma_t, [](double s) { return 1 / std::max(s, 0.); });
-  result.across = across(medium.shape);
+  result.across = across(medium);
   result.optical_depth = medium.sigma_t * result.across.value_or(0);
   const double distance = length(camera.target - camera.position);
-  const Interval<double> view =
-      chord(medium.shape, camera.position, (camera.target - camera.position) * (1 / distance));
-  if (view.t_exit > view.t_enter) {
-    result.camera_inside = view.t_enter <= 0;
-    result.enter = view.t_enter;
-    if (view.t_exit < far_away) result.exit = view.t_exit;
-    result.to_target = std::max(std::min(view.t_exit, distance) - view.t_enter, 0.);
+  const Chord view(medium, camera.position, (camera.target - camera.position) * (1 / distance),
+                   distance);
+  const auto [enter, exit] = view.inside;
+  if (exit > enter) {
+    result.camera_inside = enter <= 0;
+    result.enter = enter;
+    if (exit < far_away) result.exit = exit;
+    result.to_target = view.length;
   }
   return result;
 }
@@ -102,15 +117,22 @@ std::vector<Vec3<double>> points_in_view(const Scene& scene, const World& world)
     const double x = (i % columns + 0.5) / columns * scene.resolution.width;
     const double y = (i / columns + 0.5) / rows * scene.resolution.height;
     const Vec3<double> direction = normalize(camera.corner + camera.right * x + camera.down * y);
-    const Interval<double> inside = chord(scene.medium->shape, camera.position, direction);
     const Hit<double> hit = world.closest<double>(camera.position, direction, 0., true);
-    // Of an unbounded medium, what lies within a few mean free paths counts.
-    const double far = inside.t_enter + 3 / std::max(least(scene.medium->sigma_t), 1e-9);
-    const double end = std::min({hit.found ? hit.t : far_away, inside.t_exit, far});
-    if (!(end > inside.t_enter)) continue;
-    for (int k = 0; k < on_a_ray; ++k)
-      points.push_back(camera.position + direction * (inside.t_enter + (k + 0.5) / on_a_ray *
-                                                                           (end - inside.t_enter)));
+    const auto add_points = [&](const Medium& medium, double enter, double leave) {
+      // Of an unbounded medium, what lies within a few mean free paths counts.
+      const double far = enter + 3 / std::max(least(medium.sigma_t), 1e-9);
+      const double end = std::min({hit.found ? hit.t : far_away, leave, far});
+      if (!(end > enter)) return;
+      for (int k = 0; k < on_a_ray; ++k)
+        points.push_back(camera.position +
+                         direction * (enter + (k + 0.5) / on_a_ray * (end - enter)));
+    };
+    with_space(scene.media, [&](const Medium* medium, const auto& space) {
+      const LocalRay<double> ray{space.point(camera.position), space.vector(direction)};
+      const auto inside = stretches_of(medium, space, ray);
+      for (int j = 0; j < inside.count; ++j)
+        add_points(inside.medium(j), inside.enter[j], inside.leave[j]);
+    });
   }
   return points;
 }
@@ -153,9 +175,8 @@ void count(const Scene& scene, Summary& result) {
   result.bounds = bounds_of(scene);
 }
 
-void warn_of_medium(const Scene& scene, const MediumSummary& fog,
+void warn_of_medium(const Medium& medium, const MediumSummary& fog,
                     std::vector<std::string>& warnings) {
-  const Medium& medium = *scene.medium;
   const double opaque_after = hundredth / least(medium.sigma_t);
   const double across = fog.across.value_or(far_away);
   if (fog.to_target > opaque_after)
@@ -166,14 +187,28 @@ void warn_of_medium(const Scene& scene, const MediumSummary& fog,
   else if (opaque_after < across / 2)
     warnings.push_back(fmt::format(
         "fog is opaque after {:.2g} m (1 % passes); it is {:.3g} m across", opaque_after, across));
-  if (!fog.enter) warnings.push_back("the camera is outside the fog and does not look into it");
   if (medium.sigma_s == Rgb<double>() && medium.emission == Rgb<double>())
     warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
 }
 
+/// How far ahead of the camera, along the middle of the picture, fog begins; nothing if nowhere.
+std::optional<double> fog_ahead(const std::vector<MediumSummary>& media) {
+  std::optional<double> ahead;
+  for (const MediumSummary& fog : media)
+    if (fog.enter) ahead = std::min(*fog.enter, ahead.value_or(far_away));
+  return ahead;
+}
+
+std::vector<MediumSummary> summaries_of(const Scene& scene) {
+  std::vector<MediumSummary> media;
+  for (const Medium& medium : scene.media) media.push_back(summary_of(medium, scene.camera));
+  return media;
+}
+
 /// Whether fog could be lit, if nothing were in the way.
 bool expects_light(const Scene& scene) {
-  return scene.medium && scene.medium->sigma_s != Rgb<double>() &&
+  return std::ranges::any_of(
+             scene.media, [](const Medium& medium) { return medium.sigma_s != Rgb<double>(); }) &&
          std::ranges::any_of(scene.lights, [](const Lights& light) {
            return std::visit([](const auto& l) { return l.irradiance != Rgb<double>(); }, light);
          });
@@ -181,14 +216,14 @@ bool expects_light(const Scene& scene) {
 
 std::vector<std::string> remarks_on(const Scene& scene, const Summary& summary) {
   std::vector<std::string> remarks;
-  if (summary.medium && summary.medium->enter && !summary.medium->camera_inside)
-    remarks.push_back(fmt::format("the camera is outside the fog, which begins {:.3g} m ahead",
-                                  *summary.medium->enter));
-  if (scene.medium && scene.ambient != Rgb<double>())
+  if (const auto ahead = fog_ahead(summary.media); ahead && *ahead > 0)
+    remarks.push_back(
+        fmt::format("the camera is outside the fog, which begins {:.3g} m ahead", *ahead));
+  if (!scene.media.empty() && scene.ambient != Rgb<double>())
     remarks.push_back(
         "ambient lights surfaces only: light of the sky that scatters in the fog is not part of "
         "the model");
-  if (scene.medium && scene.objects.empty())
+  if (!scene.media.empty() && scene.objects.empty())
     remarks.push_back("no objects: nothing throws a shadow");
   return remarks;
 }
@@ -197,13 +232,16 @@ std::vector<std::string> remarks_on(const Scene& scene, const Summary& summary) 
 
 std::vector<std::string> warnings_before(const Scene& scene) {
   std::vector<std::string> warnings;
-  if (scene.medium)
-    warn_of_medium(scene, summary_of(*scene.medium, scene.camera), warnings);
-  else if (scene.objects.empty())
-    warnings.push_back("the scene is empty: the picture shows the background only");
-  else
-    warnings.push_back("no medium: the picture shows surfaces only");
-  if (scene.medium && scene.lights.empty()) warnings.push_back("no light: the fog stays dark");
+  const std::vector<MediumSummary> media = summaries_of(scene);
+  for (std::size_t i = 0; i < media.size(); ++i) warn_of_medium(scene.media[i], media[i], warnings);
+  if (!media.empty() && !fog_ahead(media))
+    warnings.push_back("the camera is outside the fog and does not look into it");
+  if (media.empty())
+    warnings.push_back(scene.objects.empty()
+                           ? "the scene is empty: the picture shows the background only"
+                           : "no medium: the picture shows surfaces only");
+  else if (scene.lights.empty())
+    warnings.push_back("no light: the fog stays dark");
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (std::visit([](const auto& l) { return l.irradiance == Rgb<double>(); }, scene.lights[i]))
       warnings.push_back(fmt::format("lights.{} is black", i));
@@ -223,10 +261,8 @@ Summary summarise(const Scene& scene) {
   count(scene, result);
   const World world(scene, scene.render.visibility);
   std::vector<Vec3<double>> points;
-  if (scene.medium) {
-    result.medium = summary_of(*scene.medium, scene.camera);
-    points = points_in_view(scene, world);
-  }
+  result.media = summaries_of(scene);
+  if (!scene.media.empty()) points = points_in_view(scene, world);
   result.warnings = warnings_before(scene);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     std::visit(

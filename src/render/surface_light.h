@@ -1,5 +1,7 @@
 #pragma once
 /// Where a packet of rays meets surfaces, and the light that these receive and send back.
+#include <airlight/media.h>
+
 #include "render/frame.h"
 
 namespace airlight {
@@ -87,27 +89,6 @@ class SurfaceLight {
           frame_.scene.lights[std::size_t(i)]);
   }
 
-  /// e^{−σ length}.
-  Rgb<F> extinguished(F length) const noexcept {
-    if (!medium_) return Rgb<F>(F(1));
-    return exp_minus(Rgb<F>(medium_->sigma_t) * length);
-  }
-
-  /// Of the medium between the camera and t.
-  Rgb<F> attenuation(Interval<F> inside, F t) const noexcept {
-    return extinguished(max(min(t, inside.t_exit) - inside.t_enter, F(0)));
-  }
-
-  /// ∫ j e^{−σ s} ds over the part of the medium between two distances, in closed form.
-  Rgb<F> emitted(Interval<F> inside, F from, F to) const noexcept {
-    if (!medium_ || medium_->emission == Rgb<double>()) return {};
-    const F begin = clamp(from, inside.t_enter, inside.t_exit);
-    const F length = clamp(to, inside.t_enter, inside.t_exit) - begin;
-    const Rgb<F> sigma(medium_->sigma_t);
-    const Rgb<F> mean(phi(sigma.r * length), phi(sigma.g * length), phi(sigma.b * length));
-    return Rgb<F>(medium_->emission) * extinguished(begin - inside.t_enter) * mean * length;
-  }
-
  private:
   /// Of a beam at a point of a surface.  [W/m²]
   Shadowed<F> irradiance(const Collimated& beam, int light_index, const Crossing<F>& at,
@@ -149,8 +130,8 @@ class SurfaceLight {
     const Rgb<F> visible = frame_.world.transmit(at.above, w, reach, light_index, faces);
     Rgb<F> part(cosine);
     if (medium_) {
-      const Interval<F> chord = space_.clip(LocalRay<F>{space_.point(at.point), space_.vector(w)});
-      part *= extinguished(max(min(chord.t_exit, reach) - chord.t_enter, F(0)));
+      const LocalRay<F> to_light{space_.point(at.point), space_.vector(w)};
+      part *= stretches_of(medium_, space_, to_light).transmittance(reach);
     }
     return {select(faces, part * visible, Rgb<F>()), select(faces, part, Rgb<F>())};
   }

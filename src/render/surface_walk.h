@@ -30,7 +30,8 @@ class SurfaceWalk {
   F depth{F(0)}, object{F(0)};
   bool filtered = false;  ///< whether any lane crosses something that lets light through
 
-  void along(Vec3<F> origin, Vec3<F> direction, Interval<F> inside, SampleRange samples,
+  template <class Inside>
+  void along(Vec3<F> origin, Vec3<F> direction, const Inside& inside, SampleRange samples,
              Mask<F> active) noexcept {
     F t(0);
     bool first = true;
@@ -39,9 +40,9 @@ class SurfaceWalk {
       const Hit<F> hit = frame_.world.template closest<F>(origin, direction, t, active);
       const Mask<F> found = hit.found & active;
       const F t_next = select(found, hit.t, F(far_away));
-      const Rgb<F> glow = filter * surfaces_.emitted(inside, t, t_next);
+      const Rgb<F> glow = filter * inside.emitted(t, t_next);
       emission = select(active, emission + glow, emission);
-      const Rgb<F> dim = filter * surfaces_.attenuation(inside, t_next);
+      const Rgb<F> dim = filter * inside.transmittance(t_next);
       uncovered = select(active & !found, uncovered + dim, uncovered);
       through = select(active, dim, through);
       if (!any(found)) break;

@@ -124,11 +124,11 @@ void add_in_scatter(const Frame& frame, const Space& space, const L& light, int 
                     Halves<F>& sums, Watch&& watch) noexcept {
   const bool halve_by_ray = !frame.through_centre;
   if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
-    sampled->template add<channels>(*frame.scene.medium, space, light, index, ray, samples,
+    sampled->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
                                     halve_by_ray, sampler, frame.world, sums, watch);
   if constexpr (std::same_as<F, double>)
     if (const auto* exact = std::get_if<ClosedForm>(&frame.estimator); exact && ray.active)
-      exact->template add<channels>(*frame.scene.medium, space, light, index, ray, samples,
+      exact->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
                                     halve_by_ray, ExactVisibility{frame.shadows}, sums);
 }
 
@@ -143,8 +143,8 @@ void add_in_scatter(const Frame& frame, const Space& space, const L& light, int 
 /// Is told of every camera ray while a tile is rendered; this one does not listen.
 struct Unwatched {
   template <Real F, class Space>
-  void camera_ray(const SurfaceWalk<F, Space>&, Vec3<F> /*direction*/, Interval<F> /*inside*/,
-                  SampleRange) const noexcept {}
+  void camera_ray(const SurfaceWalk<F, Space>&, Vec3<F> /*direction*/, SampleRange) const noexcept {
+  }
   /// The same ray's part in the medium, if it has one.
   template <Real F>
   void medium_ray(const MediumRay<F>&) const noexcept {}
@@ -221,17 +221,13 @@ class TileKernel {
     const Vec3<F> direction = camera_direction(frame_.camera, x, y);
 
     LocalRay<F> local{camera_local_, Vec3<F>()};
-    Interval<F> inside{F(0), F(0)};
-    if (medium_) {
-      local.d = space_.vector(direction);
-      inside = space_.clip(local);
-      inside.t_exit = max(inside.t_exit, inside.t_enter);
-    }
+    if (medium_) local.d = space_.vector(direction);
+    const auto inside = stretches_of(medium_, space_, local);
 
     SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler, surface_);
     walk.background = background;
     walk.along(origin, direction, inside, samples, active);
-    watcher_.camera_ray(walk, direction, inside, samples);
+    watcher_.camera_ray(walk, direction, samples);
 
     const F n(Scalar<F>(samples.count));
     Halves<F>& ungrouped = sums_.groups[Frame::ungrouped].in_scatter;
@@ -249,7 +245,7 @@ class TileKernel {
     if (is_first) sums_.depth = walk.depth, sums_.object = walk.object;
 
     if (!medium_) return;
-    MediumRay<F> ray = medium_ray({origin, direction, walk.t_end}, local, inside);
+    MediumRay<F> ray = medium_ray({origin, direction, walk.t_end}, local, inside.hull());
     ray.active = active & ray.active;
     ray.index = index;
     ray.filtered = walk.filtered;
@@ -260,7 +256,7 @@ class TileKernel {
       Halves<F>& sums = sums_.groups[std::size_t(frame_.light_group[std::size_t(i)])].in_scatter;
       std::visit(
           [&](const auto& light) {
-            if (medium_->is_grey())
+            if (is_grey(*medium_, space_))
               add_in_scatter<1>(frame_, space_, light, i, ray, samples, sampler, sums);
             else
               add_in_scatter<3>(frame_, space_, light, i, ray, samples, sampler, sums);
@@ -281,19 +277,11 @@ class TileKernel {
 
 template <Real F, class Watcher>
 void render_tile(const Frame& frame, Tile& tile, Watcher& watcher) {
-  if (!frame.scene.medium) {
-    const Unbounded::Space nowhere;
-    return TileKernel<F, Unbounded::Space, Watcher>(frame, tile, nullptr, nowhere, watcher)
+  with_space(frame.scene.media, [&](const Medium* medium, const auto& space) {
+    TileKernel<F, std::remove_cvref_t<decltype(space)>, Watcher>(frame, tile, medium, space,
+                                                                 watcher)
         .render();
-  }
-  std::visit(
-      [&](const auto& shape) {
-        const auto space = shape.space();
-        TileKernel<F, std::remove_const_t<decltype(space)>, Watcher>(
-            frame, tile, &*frame.scene.medium, space, watcher)
-            .render();
-      },
-      frame.scene.medium->shape);
+  });
 }
 
 template <Real F>

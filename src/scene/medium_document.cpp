@@ -4,7 +4,7 @@
 
 namespace airlight {
 
-Medium MediumDocument::medium(const Cursor& at) const {
+Medium MediumDocument::medium(const Cursor& at, const Files& files) const {
   Medium medium;
   switch (
       way_taken(at, {{"sigma_s", "sigma_a"}, {"albedo", "sigma_t"}, {"albedo", "visibility"}})) {
@@ -22,7 +22,7 @@ Medium MediumDocument::medium(const Cursor& at) const {
   }
   medium.emission = emission;
   medium.phase = phase;
-  medium.shape = shape_of(*shape, at.at_or_here("shape"));
+  medium.shape = shape_of(*shape, at.at_or_here("shape"), files);
   return medium;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "scene/cursor.h"
+#include "scene/objects/files.h"
 #include "scene/required.h"
 #include "scene/shape_documents.h"
 
@@ -43,7 +44,7 @@ struct MediumDocument {
   }
 
   /// Throws Error unless exactly one pair of coefficients is given.
-  Medium medium(const Cursor& at) const;
+  Medium medium(const Cursor& at, const Files& files) const;
 };
 
 }  // namespace airlight

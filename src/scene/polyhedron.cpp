@@ -142,6 +142,27 @@ Convex polyhedron_inside(const std::vector<std::array<double, 4>>& numbers) {
   return closed_polyhedron(std::move(planes));
 }
 
+bool overlap(const Convex& a, const Convex& b) {
+  // Both about the same point and shrunk a little: what they share, if anything, has corners.
+  const auto planes_of = [](const Convex& body) {
+    Planes planes;
+    for (int k = 0; k < body.face_count; ++k)
+      planes.push_back({body.faces[k].n, body.faces[k].h - dot(body.faces[k].n, body.centre)});
+    return planes;
+  };
+  const auto size_of = [&](const Convex& body) {
+    return farthest_from({}, corners_of(planes_of(body)));
+  };
+  const Vec between = b.centre - a.centre;
+  const double size_a = size_of(a), size_b = size_of(b);
+  if (length(between) >= size_a + size_b) return false;
+  Planes both = planes_of(a);
+  for (const Plane& plane : planes_of(b))
+    both.push_back({plane.n, plane.h + dot(plane.n, between)});
+  for (Plane& plane : both) plane.h -= tolerance * std::min(size_a, size_b);
+  return !corners_of(both).empty();
+}
+
 Convex hull_of(const std::vector<Vec>& given) {
   if (given.size() < 4) throw Error("are too few: a polyhedron takes at least 4");
   if (given.size() > most_hull_points)

@@ -17,4 +17,7 @@ Convex hull_of(const std::vector<Vec3<double>>& points);
 
 inline constexpr std::size_t most_hull_points = 256;
 
+/// Whether the insides of two polyhedra meet, by more than a millionth of the smaller one's size.
+bool overlap(const Convex& a, const Convex& b);
+
 }  // namespace airlight

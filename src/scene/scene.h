@@ -91,7 +91,7 @@ struct Scene {
   Rgb<double> ambient{0, 0, 0};  ///< radiance around surfaces; lights surfaces only  [W/(m2 sr)]
   std::vector<Texture> textures;
   std::vector<Object> objects;
-  std::optional<Medium> medium;
+  std::vector<Medium> media;  ///< apart from each other
   std::vector<Lights> lights;
   std::vector<std::string>
       light_groups;  ///< of each light; empty: none, as for lights beyond its end

@@ -5,6 +5,7 @@
 #include "image/numbered.h"
 #include "scene/background_image.h"
 #include "scene/camera.h"
+#include "scene/joined_media.h"
 #include "scene/reader.h"
 
 namespace airlight {
@@ -46,10 +47,11 @@ Parts parts_of(const Objects& objects, const Cursor& at, const Files& files, con
 
 /// Combinations that each part of the scene accepts by itself.
 void check_together(const Scene& scene, const Cursor& at) {
-  if (scene.medium && std::holds_alternative<Unbounded>(scene.medium->shape))
+  for (std::size_t i = 0; i < scene.media.size(); ++i)
     for (const Lights& light : scene.lights)
-      if (std::holds_alternative<Directional>(light))
-        at.at_or_here("media").element(0).at_or_here("shape").complain(
+      if (std::holds_alternative<Unbounded>(scene.media[i].shape) &&
+          std::holds_alternative<Directional>(light))
+        at.at_or_here("media").element(i).at_or_here("shape").complain(
             "is unbounded, where a directional light never arrives: all of it is lost on its way "
             "from infinitely far; give the medium a shape with an end, or leave out the light");
 }
@@ -73,10 +75,8 @@ Scene scene_of(const Value& value, const Files& files) {
   scene.render = document.render;
   check_camera(scene.camera, at.at_or_here("camera"));
   check(scene.render, at.at_or_here("render"));
-  if (document.media.size() > 1)
-    at.at_or_here("media").element(1).complain("is a second medium: one is accepted so far");
-  if (!document.media.empty())
-    scene.medium = document.media[0].medium(at.at_or_here("media").element(0));
+  for (std::size_t i = 0; i < document.media.size(); ++i)
+    scene.media.push_back(document.media[i].medium(at.at_or_here("media").element(i), files));
   for (std::size_t i = 0; i < document.lights.size(); ++i)
     std::visit(
         [&](const auto& light) {
@@ -92,6 +92,7 @@ Scene scene_of(const Value& value, const Files& files) {
                  {scene.camera, scene.resolution}),
         scene);
   check_together(scene, at);
+  if (const auto reason = cannot_be_joined(scene.media)) at.at_or_here("media").complain(*reason);
   return scene;
 }
 

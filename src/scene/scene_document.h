@@ -33,7 +33,8 @@ struct SceneDocument {
           "light from all around; it reaches surfaces only, not the medium");
     field("camera", &D::camera, unit::none, any_number(), "a pinhole camera");
     field("image", &D::image, unit::none, any_number(), "the size of the picture");
-    field("media", &D::media, unit::none, any_number(), "fog, dust, smoke or water; one at most");
+    field("media", &D::media, unit::none, any_number(),
+          "fog, dust, smoke or water; several lie side by side");
     field("lights", &D::lights, unit::none, any_number(), "any number of lights");
     field("objects", &D::objects, unit::none, any_number(),
           "what light meets, in the file's order");

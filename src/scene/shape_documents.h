@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "scene/cursor.h"
+#include "scene/objects/files.h"
+#include "scene/required.h"
+#include "scene/transform.h"
 
 namespace airlight {
 
@@ -27,10 +30,28 @@ struct ConvexDocument {
   }
 };
 
-/// Every shape of a medium as a file says it.
-using ShapeDocuments = std::variant<Box, ConvexDocument, Unbounded>;
+/// The inside of a watertight mesh as a file says it.
+struct SolidDocument : Transform {
+  Required<std::string> file;
 
-/// What a shape means. Throws Error for one without an inside or without an end.
-Shapes shape_of(const ShapeDocuments& document, const Cursor& at);
+  static constexpr auto name = Solid::name;
+  static constexpr auto meaning = Solid::meaning;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    using D = SolidDocument;
+    field("file", &D::file, unit::none, any_number(),
+          "a model (.obj, .gltf, .glb) whose triangles close off the medium: two at every edge, "
+          "none through another; its path starts at the scene file");
+    Transform::describe(field);
+  }
+};
+
+/// Every shape of a medium as a file says it.
+using ShapeDocuments = std::variant<Box, ConvexDocument, Unbounded, SolidDocument>;
+
+/// What a shape means. Throws Error for one without an inside or without an end, and for a mesh
+/// that closes off no body.
+Shapes shape_of(const ShapeDocuments& document, const Cursor& at, const Files& files);
 
 }  // namespace airlight

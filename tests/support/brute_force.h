@@ -93,9 +93,9 @@ class BruteForce {
     const double cosine = dot(n, toward);
     if (cosine <= 0) return {};
     Colour result = passed(p, toward, infinity, &sheet) * cosine;
-    if (scene_.medium) {
+    if (!scene_.media.empty()) {
       const auto [enter, leave] = clip({p, toward});
-      if (leave > enter) result = result * exp_of(scene_.medium->sigma_t, leave - enter);
+      if (leave > enter) result = result * exp_of(scene_.media[0].sigma_t, leave - enter);
     }
     return result;
   }
@@ -113,14 +113,14 @@ class BruteForce {
   /// Light emitted by the fog, by quadrature.
   Colour emission(const CameraRay& ray) const {
     return along(ray, {}, [&](double, double depth_so_far, const Vector&) {
-      return scene_.medium->emission * exp_of(scene_.medium->sigma_t, depth_so_far);
+      return scene_.media[0].emission * exp_of(scene_.media[0].sigma_t, depth_so_far);
     });
   }
 
   /// Light scattered once by the fog from parallel light that comes from `toward`.
   Colour in_scatter(const CameraRay& ray, const Directional& sun, const Vector& toward,
                     bool with_shadows = true, int channels = 3) const {
-    const Medium& medium = *scene_.medium;
+    const Medium& medium = scene_.media[0];
     std::vector<double> breaks;
     for (const Sheet& sheet : sheets_) add_shadow_edges(sheet, ray, toward, breaks);
     const double phase = phase_function(dot(toward, ray.direction));
@@ -143,7 +143,7 @@ class BruteForce {
   /// The same of every light.
   Colour in_scatter(const CameraRay& ray) const {
     Colour sum;
-    if (!scene_.medium) return sum;
+    if (scene_.media.empty()) return sum;
     for (const Lights& any : scene_.lights) {
       const auto& sun = std::get<Directional>(any);
       sum += in_scatter(ray, sun, -sun.direction);
@@ -159,8 +159,8 @@ class BruteForce {
 
   /// Entry and exit of the fog, empty if not in order; the entry is not behind the origin.
   std::pair<double, double> clip(const CameraRay& ray) const {
-    if (!scene_.medium) return {0, 0};
-    const Box& box = std::get<Box>(scene_.medium->shape);
+    if (scene_.media.empty()) return {0, 0};
+    const Box& box = std::get<Box>(scene_.media[0].shape);
     double enter = 0, leave = infinity;
     for (int k = 0; k < 3; ++k) {
       const double o = ray.origin[k], d = ray.direction[k];
@@ -180,7 +180,7 @@ class BruteForce {
 
   double phase_function(double cosine) const {
     double g = 0;
-    if (const auto* hg = std::get_if<HenyeyGreenstein>(&scene_.medium->phase)) g = hg->g;
+    if (const auto* hg = std::get_if<HenyeyGreenstein>(&scene_.media[0].phase)) g = hg->g;
     return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
   }
 
@@ -221,9 +221,9 @@ class BruteForce {
   }
 
   Colour dimmed(const CameraRay& ray, double t) const {
-    if (!scene_.medium) return Colour(1.);
+    if (scene_.media.empty()) return Colour(1.);
     const auto [enter, leave] = clip(ray);
-    return exp_of(scene_.medium->sigma_t, std::max(std::min(t, leave) - enter, 0.));
+    return exp_of(scene_.media[0].sigma_t, std::max(std::min(t, leave) - enter, 0.));
   }
 
   /// Where the light that reaches points of the ray passes an edge of the sheet, or a place where

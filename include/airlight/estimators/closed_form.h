@@ -32,20 +32,17 @@ struct ClosedForm {
     if (!ray.active) return;
     using LitSpace = std::remove_cvref_t<decltype(lit_by.space)>;
     const Vec3<double> w = light.toward();
-    Section<double, channels, LitSpace> section(lit_by.space, ray.entry, space.vector(w), ray.t_max,
-                                                extinction<double, channels>(medium));
+    auto section = section_along<double, channels>(medium, lit_by.space, ray, space.vector(w));
     section.trace_way_out();
     Channels<double, channels> lit{};
     const Vec3<double> entry = ray.origin + ray.direction * ray.t_enter;
     world.lit(entry, ray.direction, ray.t_max, light_index, [&](double from, double to) {
-      const auto part = section.way.clipped(from, to);
-      for (int c = 0; c < channels; ++c)
-        lit[c] += Trapezoids<double, LitSpace::max_segments>(part, section.sigma_t[c])
-                      .transmittance_integral();
+      const auto part = section.integral_between(from, to);
+      for (int c = 0; c < channels; ++c) lit[c] += part[c];
     });
-    const Rgb<double> radiance = medium.sigma_s * light.irradiance * ray.dimmed *
+    const Rgb<double> radiance = strength_along<Space>(medium, light.irradiance) * ray.dimmed *
                                  to_rgb<double>(lit) *
-                                 evaluate(medium.phase, dot(w, ray.direction));
+                                 phase_along<Space>(medium, dot(w, ray.direction));
     for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i)
       sums[half_of(halve_by_ray ? ray.index : i)].plain += radiance;
   }

@@ -54,10 +54,10 @@ struct Sampled {
   }
 
   /// A sample before its shadow ray.
-  template <Real F>
+  template <Real F, class Point>
   struct Drawn {
     F t, along;  ///< from the entry, and from the camera  [m]
-    F length;    ///< of the whole way  [m]
+    Point at;    ///< what the section knows of it
     F reach;     ///< from the sample to where light begins  [m]
     Rgb<F> weight;
     Vec3<F> from, to_light;
@@ -80,13 +80,13 @@ struct Sampled {
 
   /// What a metre of the medium scatters, but for a factor that all channels share: it decides
   /// between them.
-  template <Real F, int channels, class L>
+  template <int channels, class Space, Real F, class L>
   Channels<F, channels> carried(const Medium& medium, const L& light,
                                 const Rgb<F>& dimmed) const noexcept {
+    const Rgb<double> strength =
+        strength_along<Space>(medium, paths_go_on ? Rgb<double>(1.) : light.irradiance);
     Channels<F, channels> result;
-    for (int c = 0; c < channels; ++c)
-      result[c] =
-          F(Scalar<F>(medium.sigma_s[c] * (paths_go_on ? 1 : light.irradiance[c]))) * dimmed[c];
+    for (int c = 0; c < channels; ++c) result[c] = F(Scalar<F>(strength[c])) * dimmed[c];
     return result;
   }
 
@@ -106,52 +106,49 @@ struct Sampled {
     const Vec3<F> centre(light.toward());
     const Vec3<F> w = toward<F>(light, light_index, ray.index, sampler);
 
-    using Along = Section<F, channels, std::remove_cvref_t<decltype(lit.space)>>;
-    Along section(lit.space, ray.entry, space.vector(w), ray.t_max,
-                  extinction<F, channels>(medium));
+    auto section = section_along<F, channels>(medium, lit.space, ray, space.vector(w));
     if (!intersect_every_step) section.trace_way_out();
 
-    const F toward_camera = evaluate(medium.phase, dot(w, ray.direction));
-    const Rgb<F> strength = Rgb<F>(medium.sigma_s * light.irradiance) * ray.dimmed * toward_camera;
+    const F toward_camera = phase_along<Space>(medium, dot(w, ray.direction));
+    const Rgb<F> strength =
+        Rgb<F>(strength_along<Space>(medium, light.irradiance)) * ray.dimmed * toward_camera;
 
     std::array<Rgb<F>, 2> occluded, unoccluded;
     std::array<std::uint32_t, 2> count{};
     std::visit(
         [&](const Placement auto& place) {
-          const auto placed = place.on(section, carried<F, channels>(medium, light, ray.dimmed));
+          const auto placed =
+              place.on(section, carried<channels, Space>(medium, light, ray.dimmed));
           const auto distances = sampler.stream(stream::distance(light_index));
           const auto discs = sampler.stream(stream::disc(light_index));
+          using Sample = Drawn<F, typename decltype(section)::Point>;
           const auto draw = [&](std::uint32_t i) {
-            Drawn<F> d;
+            Sample d;
             d.t = placed.sample(distances.one(i));
             d.along = ray.t_enter + d.t;
             d.from = ray.origin + ray.direction * d.along;
             d.reach = light.reach(d.from);
-            d.length = intersect_every_step
-                           ? d.t + min(space.clip(LocalRay<F>{section.ray(d.t), section.w}).t_exit,
-                                       d.reach)
-                           : section.way.length_at(d.t);
+            d.at = intersect_every_step ? section.intersected(d.t, d.reach) : section.at(d.t);
             d.to_light = w;
             if (!disc || wide) {
-              d.weight = to_rgb<F>(placed.weights(d.t, d.length));
+              d.weight = to_rgb<F>(placed.weights(d.t, d.at));
               return d;
             }
             d.to_light = uniform_cap(centre, cap, discs.two(i));
-            const F own =
-                d.t + space.distance_out(section.ray(d.t), space.outward(space.vector(d.to_light)));
-            const F phase = evaluate(medium.phase, dot(d.to_light, ray.direction));
+            const auto own = section.seen(d.t, space.vector(d.to_light));
+            const F phase = phase_along<Space>(medium, dot(d.to_light, ray.direction));
             // Its own e^{−σ length} over the density, in one step: where light glances off a face
             // of dense fog, the weight of the centre underflows and the change from it overflows.
-            d.weight = to_rgb<F>(balanced_weights<F, channels>(section.transmittance(own),
-                                                               placed.pdf(d.t, d.length))) *
+            d.weight = to_rgb<F>(balanced_weights<F, channels>(section.reaching(own),
+                                                               placed.pdf(d.t, d.at))) *
                        (phase / toward_camera);
             return d;
           };
-          const auto trace = [&](std::uint32_t i, const Drawn<F>& d) {
+          const auto trace = [&](std::uint32_t i, const Sample& d) {
             Rgb<F> visible = world.transmit(d.from, d.to_light, d.reach, light_index, ray.active);
             if (ray.filtered)
               visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, ray.active);
-            watch(WatchedSample<F>{i, d.along, placed.pdf(d.t, d.length), d.weight * ray.dimmed,
+            watch(WatchedSample<F>{i, d.along, placed.pdf(d.t, d.at), d.weight * ray.dimmed,
                                    visible});
             const int half = half_of(halve_by_ray ? ray.index : i);
             occluded[half] += d.weight * visible;
@@ -161,7 +158,7 @@ struct Sampled {
           const std::uint32_t end = samples.first + samples.count;
           for (std::uint32_t i = samples.first; i < end; i += drawn_ahead) {
             const std::uint32_t n = std::min(drawn_ahead, end - i);
-            Drawn<F> drawn[drawn_ahead];
+            Sample drawn[drawn_ahead];
             for (std::uint32_t k = 0; k < n; ++k) drawn[k] = draw(i + k);
             for (std::uint32_t k = 0; k < n; ++k) trace(i + k, drawn[k]);
           }

@@ -1,5 +1,6 @@
 #pragma once
 #include "../placement.h"
+#include "../section_in_pieces.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
 
@@ -44,7 +45,7 @@ struct Distance::On<Section<F, channels, Space>> {
     return section.t_max * exponential_fraction(pick.of(depth), pick.of(drop), pick.u);
   }
 
-  F pdf(F t, F) const noexcept {
+  F pdf(F t, F /*length*/) const noexcept {
     F sum(0);
     for (int c = 0; c < channels; ++c) {
       const F density = exp(-section.sigma_t[c] * t) / select(norm[c] > F(0), norm[c], F(1));
@@ -58,6 +59,41 @@ struct Distance::On<Section<F, channels, Space>> {
       return {norm[0] * exp(-section.sigma_t[0] * (length - t))};
     else
       return balanced_weights<F, channels>(section.transmittance(length), pdf(t, length));
+  }
+};
+
+/// In several media, or in one that the ray leaves and enters again: in proportion also to what
+/// scatters, so that nothing is drawn between them.
+template <Real F, int channels, InPieces Space>
+struct Distance::On<Section<F, channels, Space>> {
+  using In = Section<F, channels, Space>;
+  const In& section;
+  decltype(std::declval<const In&>().camera_way()) camera;
+  Channels<F, channels> chance;
+
+  On(const In& s, const Channels<F, channels>& strength) noexcept
+      : section(s), camera(s.camera_way()) {
+    Channels<F, channels> carried = camera.whole();
+    for (int c = 0; c < channels; ++c) carried[c] = carried[c] * strength[c];
+    chance = chances<F, channels>(carried);
+  }
+
+  F sample(F u) const noexcept { return camera.sample(ChannelPick<F, channels>(chance, u)); }
+
+  F pdf(F t, const typename In::Point&) const noexcept {
+    const auto at = camera.at(t);
+    F sum(0);
+    for (int c = 0; c < channels; ++c) {
+      const Mask<F> some = camera.total[c] > F(0);
+      const F density = at.strength[c] * exp(min(camera.depth[c] - at.depth[c], F(0))) /
+                        select(some, camera.total[c], F(1));
+      sum = fma(chance[c], select(some, density, F(0)), sum);
+    }
+    return sum;
+  }
+
+  Channels<F, channels> weights(F t, const typename In::Point& at) const noexcept {
+    return balanced_weights<F, channels>(section.reaching(at), pdf(t, at));
   }
 };
 

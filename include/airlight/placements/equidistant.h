@@ -19,14 +19,17 @@ struct Equidistant {
 
 template <Real F, int channels, class Space>
 struct Equidistant::On<Section<F, channels, Space>> {
+  using Point = typename Section<F, channels, Space>::Point;
   const Section<F, channels, Space>& section;
 
   F sample(F u) const noexcept { return u * section.t_max; }
 
-  F pdf(F, F) const noexcept { return F(1) / select(section.t_max > F(0), section.t_max, F(1)); }
+  F pdf(F, const Point&) const noexcept {
+    return F(1) / select(section.t_max > F(0), section.t_max, F(1));
+  }
 
-  Channels<F, channels> weights(F, F length) const noexcept {
-    Channels<F, channels> w = section.transmittance(length);
+  Channels<F, channels> weights(F, const Point& at) const noexcept {
+    Channels<F, channels> w = section.reaching(at);
     for (F& c : w) c = c * section.t_max;
     return w;
   }

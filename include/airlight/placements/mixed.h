@@ -43,16 +43,15 @@ struct Mixed::On<Section<F, channels, Space>> {
     return select(first, partner, whole_volume.sample(v));
   }
 
-  F pdf(F t, F length) const noexcept {
+  F pdf(F t, const typename In::Point& at) const noexcept {
     const F partner =
-        mix.partner == Partner::distance ? distance.pdf(t, length) : equidistant.pdf(t, length);
+        mix.partner == Partner::distance ? distance.pdf(t, at) : equidistant.pdf(t, at);
     return fma(F(Scalar<F>(mix.part)), partner,
-               F(Scalar<F>(1 - mix.part)) * whole_volume.pdf(t, length));
+               F(Scalar<F>(1 - mix.part)) * whole_volume.pdf(t, at));
   }
 
-  Channels<F, channels> weights(F t, F length) const noexcept {
-    return balanced_weights<F, channels>(whole_volume.section.transmittance(length),
-                                         pdf(t, length));
+  Channels<F, channels> weights(F t, const typename In::Point& at) const noexcept {
+    return balanced_weights<F, channels>(whole_volume.section.reaching(at), pdf(t, at));
   }
 };
 

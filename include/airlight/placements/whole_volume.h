@@ -22,6 +22,7 @@ struct WholeVolume {
 
 template <Real F, int channels, class Space>
 struct WholeVolume::On<Section<F, channels, Space>> {
+  using Point = typename Section<F, channels, Space>::Point;
   const Section<F, channels, Space>& section;
   Channels<F, channels> chance;
   Channels<F, channels>
@@ -38,49 +39,28 @@ struct WholeVolume::On<Section<F, channels, Space>> {
     }
   }
 
-  F sample(F u) const noexcept {
-    if constexpr (channels == 1)
-      return section.trapezoids[0].sample(section.way, u);
-    else {
-      // The trapezoids of the channel drawn, put together lane by lane: one inversion instead of
-      // three.
-      const ChannelPick<F, channels> pick(chance, u);
-      Trapezoids<F, Space::max_segments> drawn;
-      const auto of = [&](auto member) {
-        return pick.of({member(section.trapezoids[0]), member(section.trapezoids[1]),
-                        member(section.trapezoids[2])});
-      };
-      drawn.total = of([](const auto& t) { return t.total; });
-      for (int i = 0; i <= 1 || i <= section.way.segments; ++i)  // one segment at least
-        drawn.depth_at[i] = of([i](const auto& t) { return t.depth_at[i]; });
-      for (int i = 0; i < 1 || i < section.way.segments; ++i) {
-        drawn.integral[i] = of([i](const auto& t) { return t.integral[i]; });
-        drawn.drop[i] = of([i](const auto& t) { return t.drop[i]; });
-      }
-      return drawn.sample(section.way, pick.u);
-    }
-  }
+  F sample(F u) const noexcept { return section.draw(ChannelPick<F, channels>(chance, u)); }
 
-  F pdf(F, F length) const noexcept {
+  F pdf(F, const Point& at) const noexcept {
     if constexpr (channels == 1)
-      return section.trapezoids[0].pdf(length, section.sigma_t[0]);
+      return section.density(at);
     else
-      return mixture(section.transmittance(length));
+      return mixture(section.reaching(at));
   }
 
-  Channels<F, channels> weights(F, F length) const noexcept {
+  Channels<F, channels> weights(F, const Point& at) const noexcept {
     if constexpr (channels == 1)
       return section.integral;
     else {
-      const Channels<F, channels> transmittance = section.transmittance(length);
-      return balanced_weights<F, channels>(transmittance, mixture(transmittance));
+      const Channels<F, channels> reaching = section.reaching(at);
+      return balanced_weights<F, channels>(reaching, mixture(reaching));
     }
   }
 
  private:
-  F mixture(const Channels<F, channels>& transmittance) const noexcept {
+  F mixture(const Channels<F, channels>& reaching) const noexcept {
     F sum(0);
-    for (int c = 0; c < channels; ++c) sum = fma(scale[c], transmittance[c], sum);
+    for (int c = 0; c < channels; ++c) sum = fma(scale[c], reaching[c], sum);
     return sum;
   }
 };

@@ -71,8 +71,8 @@ class MeshSection {
   };
 
   /// Of o + t d, t in [0, t_max], with light from w.
-  MeshSection(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d, Vec3<double> w,
-              double t_max) noexcept;
+  MeshSection(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d, Vec3<double> w, double t_max,
+              const LightStart<double>& start = {}) noexcept;
 
   int count() const noexcept { return count_; }
   const Piece& operator[](int i) const noexcept { return pieces_[i]; }
@@ -90,10 +90,12 @@ class MeshSection {
   };
 
   void cut(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d, Vec3<double> w, double sine,
-           double t_max) noexcept;
-  void sweep(double t_max) noexcept;
+           double t_max, const LightStart<double>& start) noexcept;
+  /// Where a segment crosses the line a + b t.
+  void add_crossing(const Segment& segment, double a, double b, double t_max) noexcept;
+  void sweep(double t_max, const LightStart<double>& start) noexcept;
   void along_the_light(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d, bool into,
-                       double t_max) noexcept;
+                       double t_max, const LightStart<double>& start) noexcept;
 
   int segment_count_ = 0, node_count_ = 0, count_ = 0;
   Segment segments_[ClosedMesh::most_cut];
@@ -164,7 +166,8 @@ inline MeshCrossings::MeshCrossings(const ClosedMesh& mesh, Vec3<double> o,
 }
 
 inline MeshSection::MeshSection(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d,
-                                Vec3<double> w, double t_max) noexcept {
+                                Vec3<double> w, double t_max,
+                                const LightStart<double>& start) noexcept {
   if (!(t_max > 0)) {
     pieces_[count_++] = {0, 0, 0, 0, false};
     return;
@@ -173,15 +176,15 @@ inline MeshSection::MeshSection(const ClosedMesh& mesh, Vec3<double> o, Vec3<dou
   // Closer to the light than this, its direction and the ray's count as one: d is off by no more
   // than the body's size times the sine.
   if (sine < 1e-8) {
-    along_the_light(mesh, o, d, dot(d, w) > 0, t_max);
+    along_the_light(mesh, o, d, dot(d, w) > 0, t_max, start);
   } else {
-    cut(mesh, o, d, w, sine, t_max);
-    sweep(t_max);
+    cut(mesh, o, d, w, sine, t_max, start);
+    sweep(t_max, start);
   }
 }
 
 inline void MeshSection::cut(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d, Vec3<double> w,
-                             double sine, double t_max) noexcept {
+                             double sine, double t_max, const LightStart<double>& start) noexcept {
   using detail::point_of;
   // p = o + t d + s w + r n.
   const Vec3<double> n = cross(d, w) * (1 / sine);
@@ -191,9 +194,6 @@ inline void MeshSection::cut(const ClosedMesh& mesh, Vec3<double> o, Vec3<double
     const double t = dot(t_of, q), t_reach = detail::reach(t_of, half);
     return std::abs(dot(n, q)) > detail::reach(n, half) || t + t_reach < 0 || t - t_reach > t_max ||
            dot(s_of, q) + detail::reach(s_of, half) < 0;
-  };
-  const auto node = [&](double t) {
-    if (t > 0 && t < t_max) nodes_[node_count_++] = t;
   };
   detail::for_each_triangle(mesh, without_effect, [&](auto... index) {
     const std::uint32_t corner[3] = {index...};
@@ -222,15 +222,25 @@ inline void MeshSection::cut(const ClosedMesh& mesh, Vec3<double> o, Vec3<double
     if (to_t < from_t) segment = {to_t, from_t, to_s, from_s, 1};
     if (segment.t1 <= 0 || segment.t0 >= t_max) return;
     segments_[segment_count_++] = segment;
-    // Two nodes a segment at most: both ends above the ray, or one and where it passes the ray.
-    if (segment.s0 > 0) node(segment.t0);
-    if (segment.s1 > 0) node(segment.t1);
-    if ((segment.s0 > 0) != (segment.s1 > 0))
-      node(segment.t0 + (segment.t1 - segment.t0) * (segment.s0 / (segment.s0 - segment.s1)));
+    // Two nodes a segment at most: the ends of its part between the ray and where light starts.
+    for (const auto& [t, s] :
+         {std::pair(segment.t0, segment.s0), std::pair(segment.t1, segment.s1)})
+      if (s > 0 && s <= start(t) && t > 0 && t < t_max) nodes_[node_count_++] = t;
+    add_crossing(segment, 0, 0, t_max);
+    add_crossing(segment, start.a, start.b, t_max);
   });
 }
 
-inline void MeshSection::sweep(double t_max) noexcept {
+inline void MeshSection::add_crossing(const Segment& segment, double a, double b,
+                                      double t_max) noexcept {
+  const double before = segment.s0 - (a + b * segment.t0);
+  const double after = segment.s1 - (a + b * segment.t1);
+  if ((before > 0) == (after > 0)) return;
+  const double t = segment.t0 + (segment.t1 - segment.t0) * (before / (before - after));
+  if (t > 0 && t < t_max) nodes_[node_count_++] = t;
+}
+
+inline void MeshSection::sweep(double t_max, const LightStart<double>& start) noexcept {
   nodes_[node_count_++] = t_max;
   std::sort(nodes_, nodes_ + node_count_);
   std::sort(segments_, segments_ + segment_count_,
@@ -245,21 +255,24 @@ inline void MeshSection::sweep(double t_max) noexcept {
     while (next < segment_count_ && segments_[next].t0 < middle)
       above[above_count++] = &segments_[next++];
     Piece piece{begin, end, inside_so_far, inside_so_far, false};
-    int depth = 0;
+    int depth = 0, depth_at_start = 0;
     for (int k = 0; k < above_count;) {
       const Segment& segment = *above[k];
       if (segment.t1 <= middle) {
         above[k] = above[--above_count];
         continue;
       }
-      if (segment.s(middle) > 0) {
+      if (const double s = segment.s(middle); s > start(middle)) {
+        depth_at_start += segment.turn;
+      } else if (s > 0) {
         depth += segment.turn;
         piece.length_begin += segment.turn * std::max(segment.s(begin), 0.);
         piece.length_end += segment.turn * std::max(segment.s(end), 0.);
       }
       ++k;
     }
-    piece.inside = depth > 0;
+    if (depth_at_start > 0) piece.length_begin += start(begin), piece.length_end += start(end);
+    piece.inside = depth + depth_at_start > 0;
     if (piece.inside) inside_so_far += end - begin, piece.length_end += end - begin;
     piece.length_begin = std::max(piece.length_begin, 0.);
     piece.length_end = std::max(piece.length_end, 0.);
@@ -269,11 +282,17 @@ inline void MeshSection::sweep(double t_max) noexcept {
 }
 
 inline void MeshSection::along_the_light(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d,
-                                         bool into, double t_max) noexcept {
+                                         bool into, double t_max,
+                                         const LightStart<double>& start) noexcept {
   const MeshCrossings crossings(mesh, o, d);
   double whole = 0, behind = 0;
   crossings.for_each_stretch([&](double enter, double leave) {
-    whole += leave - enter;
+    // Only what lies on this side of where the light starts.
+    if (into)
+      leave = std::min(leave, start.a);
+    else
+      enter = std::max(enter, -start.a);
+    whole += std::max(leave - enter, 0.);
     behind += std::max(std::min(leave, 0.) - enter, 0.);
   });
   // Towards the light, what lies ahead is passed whether before p(t) or after it. Away from it,
@@ -350,13 +369,14 @@ class Solid::Space {
 
   template <int channels, Real F>
   void cut(const LocalRay<F>& ray, Vec3<F> w, F t_max, const StretchesOf<F>& inside,
-           PiecesOf<F, channels>& pieces) const noexcept {
-    set_scale(pieces, inside.medium(0), dot(w, ray.d));
+           PiecesOf<F, channels>& pieces, const LightStart<F>& start = {}) const noexcept {
+    set_scale(pieces, inside, dot(w, ray.d));
     const F zero(0);
     pieces.t[0] = zero;
     for (int i = 0; i < lanes<F>; ++i) {
       const LocalRay<double> one = lane_of(ray, i);
-      const MeshSection section(*mesh_, one.o, one.d, lane_of(w, i), double(lane(t_max, i)));
+      const MeshSection section(*mesh_, one.o, one.d, lane_of(w, i), double(lane(t_max, i)),
+                                {double(lane(start.a, i)), double(lane(start.b, i))});
       for (int k = 0; k < section.count(); ++k) {
         if (k == pieces.count) {
           // Lanes that are through already go on with pieces of no length.
@@ -376,10 +396,11 @@ class Solid::Space {
   /// s and τ at one point of the ray for light from w, without the pieces.
   template <int channels, Real F>
   typename PiecesOf<F, channels>::Point seen(const LocalRay<F>& ray, F t, Vec3<F> w,
-                                             const StretchesOf<F>& inside) const noexcept {
+                                             const StretchesOf<F>& inside,
+                                             const LightStart<F>& start = {}) const noexcept {
     const auto& medium = inside.medium(0);
     const Rgb<F> depth =
-        inside.depth(t) + stretches(LocalRay<F>{ray(t), w}, medium).depth(F(far_away));
+        inside.depth(t) + stretches(LocalRay<F>{ray(t), w}, medium).depth(start(t));
     Mask<F> here = t < F(0);
     for (int j = 0; j < inside.count; ++j) here = here | inside.holds(j, t);
     const F phase = select(here, evaluate(medium.phase, dot(w, ray.d)), F(0));
@@ -389,6 +410,17 @@ class Solid::Space {
       result.strength[c] = F(Scalar<F>(medium.sigma_s[c])) * phase;
     }
     return result;
+  }
+
+  /// One medium fills the body: pieces hold lengths.
+  template <Real F, class Cut>
+  static void set_scale(Cut& pieces, const StretchesOf<F>& inside, F cosine) noexcept {
+    const auto& medium = inside.medium(0);
+    const F phase = evaluate(medium.phase, cosine);
+    for (int c = 0; c < int(pieces.sigma_t.size()); ++c) {
+      pieces.sigma_t[c] = F(Scalar<F>(medium.sigma_t[c]));
+      pieces.sigma_s[c] = F(Scalar<F>(medium.sigma_s[c])) * phase;
+    }
   }
 
  private:
@@ -406,15 +438,6 @@ class Solid::Space {
     MeshCrossings(*mesh_, ray.o, ray.d).for_each_stretch([&](double enter, double leave) {
       if (leave > 0) add(std::max(enter, 0.), leave);
     });
-  }
-
-  template <int channels, Real F>
-  static void set_scale(PiecesOf<F, channels>& pieces, const auto& medium, F cosine) noexcept {
-    const F phase = evaluate(medium.phase, cosine);
-    for (int c = 0; c < channels; ++c) {
-      pieces.sigma_t[c] = F(Scalar<F>(medium.sigma_t[c]));
-      pieces.sigma_s[c] = F(Scalar<F>(medium.sigma_s[c])) * phase;
-    }
   }
 
   const ClosedMesh* mesh_;

@@ -17,15 +17,14 @@ int add_texture(Parts& parts, const std::string& file, const Cursor& at, const F
 
 void PlacedObject::place(Parts& parts, const char* kind) const {
   const Rotation turn(rotate);
-  const auto moved = [&](Vec3<double> p) { return translate + turn(p * scale); };
-  const bool stays = scale == 1 && rotate == Vec3<double>() && translate == Vec3<double>();
+  const auto moved = mapping();
   for (Object& object : parts.objects) {
     if (object.name.empty())
       object.name = label.empty() ? kind : label;
     else if (!label.empty())
       object.name = label + "." + object.name;
     object.holdout = holdout;
-    if (stays) continue;
+    if (is_none()) continue;
     if (auto* sphere = std::get_if<Sphere>(&object.geometry)) {
       sphere->centre = moved(sphere->centre);
       sphere->radius *= scale;

@@ -9,25 +9,20 @@
 #include "scene/objects/files.h"
 #include "scene/objects/parts.h"
 #include "scene/required.h"
+#include "scene/transform.h"
 
 namespace airlight {
 
 /// What every object of a scene file may say: its name and where it is put.
-struct PlacedObject {
+struct PlacedObject : Transform {
   std::string label;  ///< the key "name"; a kind has a name, too
-  double scale = 1;
-  Vec3<double> rotate{0, 0, 0};
-  Vec3<double> translate{0, 0, 0};
   bool holdout = false;
 
   template <class Visitor>
   static constexpr void describe(Visitor&& field) {
     using O = PlacedObject;
     field("name", &O::label, unit::none, any_number(), "what reports call it");
-    field("scale", &O::scale, unit::one, closed(1e-6, 1e6), "about the origin, before the turn");
-    field("rotate", &O::rotate, unit::degree, any_number(),
-          "about the x axis, then y, then z, through the origin");
-    field("translate", &O::translate, unit::metre, any_number(), "where its origin is put");
+    Transform::describe(field);
     field("holdout", &O::holdout, unit::none, any_number(),
           "stands for a thing in the background's picture: it blocks and shadows, and the camera "
           "sees the background in its place");

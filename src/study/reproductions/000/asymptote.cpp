@@ -10,7 +10,7 @@ namespace airlight::paper_000 {
 
 Asymptotes asymptotes(const Configuration& configuration) {
   const Scene scene = black_ball(configuration);
-  const Box box = std::get<Box>(scene.medium->shape);
+  const Box box = std::get<Box>(scene.media[0].shape);
   const std::vector<Plane> faces = faces_of(box);
   const Box::Space space = box.space();
   const Vec3<double> toward = normalize(configuration.toward);

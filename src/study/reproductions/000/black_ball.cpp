@@ -18,7 +18,7 @@ Scene black_ball(const Configuration& configuration) {
   scene.camera.fov = configuration.fov;
   Medium fog;
   fog.sigma_s = fog.sigma_t = Rgb<double>(configuration.sigma_t);
-  scene.medium = fog;
+  scene.media = {fog};
   Directional light;
   light.irradiance =
       Rgb<double>(configuration.strength * 4 * std::numbers::pi / configuration.sigma_t);

@@ -19,8 +19,8 @@ Rgb<double> channel_mse(const Image& image, const Image& reference) {
 
 Scene coloured_fog() {
   Scene scene = black_ball(configurations[1]);
-  scene.medium->sigma_t = {0.3, 1, 3};
-  scene.medium->sigma_s = Rgb<double>(0.3);
+  scene.media[0].sigma_t = {0.3, 1, 3};
+  scene.media[0].sigma_s = Rgb<double>(0.3);
   return scene;
 }
 

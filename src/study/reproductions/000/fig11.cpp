@@ -88,7 +88,7 @@ Scene fog_with_beads(const Convex& shape) {
   Medium fog;
   fog.sigma_t = fog.sigma_s = Rgb<double>(0.9);
   fog.shape = shape;
-  scene.medium = fog;
+  scene.media = {fog};
   Directional sun;
   sun.irradiance = Rgb<double>(11);
   sun.direction = normalize(Vec3<double>(-0.75, -1, -0.1));

@@ -119,7 +119,7 @@ Scene empty_box(Vec3<double> camera, double fov, Vec3<double> toward, double sig
   scene.camera.fov = fov;
   Medium fog;
   fog.sigma_s = fog.sigma_t = Rgb<double>(sigma_t);
-  scene.medium = fog;
+  scene.media = {fog};
   Directional sun;
   sun.direction = -normalize(toward);
   scene.lights = {sun};
@@ -131,7 +131,7 @@ Scene empty_box(Vec3<double> camera, double fov, Vec3<double> toward, double sig
 }
 
 void sample_in_picture(const Scene& scene, Reproduced& out) {
-  const std::vector<Plane> faces = faces_of(std::get<Box>(scene.medium->shape));
+  const std::vector<Plane> faces = faces_of(std::get<Box>(scene.media[0].shape));
   const auto [width, height] = scene.resolution;
   Image pieces(width, height);
   std::vector<double> below;
@@ -150,7 +150,7 @@ void sample_in_picture(const Scene& scene, Reproduced& out) {
                                 ray.direction,
                                 light.toward,
                                 ray.t_exit - enter,
-                                scene.medium->sigma_t.r};
+                                scene.media[0].sigma_t.r};
       const double whole = exact.integral(0, exact.t_max);
       for (const ProbedSample& sample : light.samples)
         below.push_back(exact.integral(0, sample.t - enter) / whole);
