@@ -2,9 +2,13 @@
 // against quadrature of an integrand that measures every way afresh, in every arithmetic.
 
 #include <airlight/joined.h>
-#include <airlight/section_in_pieces.h>
+#include <airlight/lit_part.h>
+#include <airlight/placements.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "report/statistics.h"
 #include "support/stats.h"
 #include "support/unions.h"
 #include "support/worst.h"
@@ -55,16 +59,37 @@ Medium any_medium(Random& random, const Cell& cell, bool grey) {
   return medium;
 }
 
-/// Boxes along the axes and a ray, as special as `kind` says.
-Union any_union(Random& random, int kind, bool grey) {
+/// Kinds of rays in which the union is well-conditioned, and those in which the light all but
+/// follows the ray.
+constexpr test::Kind kinds[] = {test::Kind::generic,
+                                test::Kind::into_the_light,
+                                test::Kind::light_behind,
+                                test::Kind::light_along_an_axis,
+                                test::Kind::view_along_an_axis,
+                                test::Kind::both_along_axes,
+                                test::Kind::light_parallel_to_a_face,
+                                test::Kind::view_parallel_to_a_face,
+                                test::Kind::both_parallel_to_faces,
+                                test::Kind::gliding_in_a_face,
+                                test::Kind::from_a_corner,
+                                test::Kind::tied};
+constexpr test::Kind nearly_parallel[] = {test::Kind::nearly_into_the_light,
+                                          test::Kind::barely_off_the_light,
+                                          test::Kind::light_nearly_behind};
+
+/// One to six boxes along the axes and a ray from inside them or from outside.
+template <class Kinds>
+Union any_union(Random& random, const Kinds& which, bool grey) {
   Union all;
   for (const Cell& cell : cells(random, 1 + random.below(6)))
     all.parts.push_back({test::box_body(test::point(cell.min), test::point(cell.max)),
                          any_medium(random, cell, grey)});
-  all.ray = test::ray_of(test::Kind(kind % test::kinds), random);
-  // From inside, or from outside towards the boxes.
+  all.ray = test::ray_of(random.of(which), random);
   if (random.below(2)) all.ray.o = all.ray.o - all.ray.d * random.uniform(0, 3);
   all.ray.t_max = random.uniform(0.5, 5);
+  // Some light starts at a plane, ahead of all of the ray.
+  if (const double b = -dot(all.ray.d, all.ray.w); random.below(4) == 0)
+    all.start = {std::max(0., -b * all.ray.t_max) + random.uniform(0, 1.5), b};
   return all;
 }
 
@@ -74,36 +99,308 @@ std::vector<Medium> media_of(const Union& all) {
   return media;
 }
 
-/// The same ray in every lane.
-template <Real F, int channels>
-Section<F, channels, Joined> section_of(const Joined& joined, const test::BoxRay& ray,
-                                        const Medium& first) {
-  return {joined,
-          {joined.point(Vec3<F>(ray.o)), joined.vector(Vec3<F>(ray.d))},
-          Vec3<F>(ray.w),
-          F(Scalar<F>(ray.t_max)),
-          first};
+/// The section of a ray, the same in every lane.
+template <Real F, int channels, class Space>
+Section<F, channels, Space> section_of(const Space& space, const test::BoxRay& ray,
+                                       const Medium& first) {
+  Section<F, channels, Space> section(space, {space.point(Vec3<F>(ray.o)), Vec3<F>(ray.d)},
+                                      Vec3<F>(ray.w), F(Scalar<F>(ray.t_max)), first);
+  section.trace_way_out();
+  return section;
+}
+
+/// A union with its section in double, which stays where it is made.
+struct Traced {
+  explicit Traced(Union all_) : all(std::move(all_)) {}
+  Traced(const Traced&) = delete;
+
+  Union all;
+  std::vector<Medium> media = media_of(all);
+  Joined joined{media};
+  SpaceBelowStart<double, Joined> below{joined, all.start.a, all.start.b};
+  Section<double, 3, SpaceBelowStart<double, Joined>> section =
+      section_of<double, 3>(below, all.ray, media[0]);
+};
+
+/// Unions of which the ray sees something in every channel.
+template <class Kinds>
+std::vector<std::unique_ptr<Traced>> traced(int n, const Kinds& which, unsigned seed) {
+  Random random(seed);
+  std::vector<std::unique_ptr<Traced>> result;
+  while (int(result.size()) < n) {
+    auto one = std::make_unique<Traced>(any_union(random, which, false));
+    const auto& total = one->section.pieces.total;
+    if (std::min({total[0], total[1], total[2]}) > 1e-9) result.push_back(std::move(one));
+  }
+  return result;
+}
+
+template <class Kinds>
+void expect_exact(const char* what, const Kinds& which, double allowed, int n) {
+  Worst worst(what);
+  for (const auto& one : traced(n, which, 1))
+    for (int c = 0; c < 3; ++c) {
+      const auto& [all, media, joined, below, section] = *one;
+      const Exact base = all.least_depth(c);
+      const double found =
+          section.pieces.total[c] * double(std::exp(base - Exact(section.pieces.depth[c])));
+      const double truth = all.integral(c, base, 0, all.ray.t_max);
+      worst.see(std::abs(found / truth - 1) / (1 + double(base)), all);
+    }
+  worst.expect_below(allowed);
 }
 
 TEST(JoinedMedia, hold_the_integral_of_what_scatters) {
-  Worst worst("T of a union in double, relative error / (1 + depth)");
-  Random random(1);
-  for (int i = 0; i < 400; ++i) {
-    const Union all = any_union(random, i, false);
-    const std::vector<Medium> media = media_of(all);
-    const Joined joined(media);
-    auto section = section_of<double, 3>(joined, all.ray, media[0]);
-    section.trace_way_out();
+  expect_exact("T of a union in double, relative error / (1 + depth)", kinds, 1.5e-13, 320);
+}
+
+TEST(JoinedMedia, are_as_exact_as_their_condition_where_the_light_all_but_follows_the_ray) {
+  expect_exact("T of a union where w is all but d, relative error / (1 + depth)", nearly_parallel,
+               1e-13, 80);
+}
+
+TEST(JoinedMedia, know_depth_and_strength_at_every_point) {
+  Worst depth("optical depth at a point, relative error"), strength("strength, relative error");
+  Random random(2);
+  // A ray in a face is inside or outside, as one likes.
+  constexpr test::Kind apart[] = {test::Kind::generic,
+                                  test::Kind::into_the_light,
+                                  test::Kind::light_behind,
+                                  test::Kind::light_along_an_axis,
+                                  test::Kind::view_along_an_axis,
+                                  test::Kind::light_parallel_to_a_face};
+  for (const auto& one : traced(200, apart, 2))
+    for (int i = 0; i < 8; ++i) {
+      const auto& [all, media, joined, below, section] = *one;
+      const double t = random.uniform() * all.ray.t_max;
+      // Not within rounding of where something jumps.
+      bool near = false;
+      for (const double b : all.breaks()) near |= std::abs(b - t) < 1e-9;
+      if (near) continue;
+      const auto at = section.at(t), alone = section.seen(t, all.ray.w);
+      for (int c = 0; c < 3; ++c) {
+        const double d = double(all.depth(t, c)), s = all.strength(t, c);
+        depth.see(std::abs(at.depth[c] - d) / (1 + d), all);
+        depth.see(std::abs(alone.depth[c] - d) / (1 + d), all);
+        strength.see(std::abs(at.strength[c] - s) / (s > 0 ? s : 1), all);
+        strength.see(std::abs(alone.strength[c] - s) / (s > 0 ? s : 1), all);
+      }
+    }
+  // Prolonged from its middle, a piece of the ray loses up to the ratio of the two in digits.
+  depth.expect_below(1e-13);
+  strength.expect_below(1e-14);
+}
+
+TEST(JoinedMedia, invert_their_distribution_in_order) {
+  Worst worst("distribution of a sample, off u by");
+  Random random(3);
+  for (const auto& one : traced(120, kinds, 3))
+    for (int c = 0; c < 3; c += 2) {  // the middle one runs backwards
+      const auto& [all, media, joined, below, section] = *one;
+      Channels<double, 3> chance{};
+      chance[c] = 1;
+      std::vector<double> us = {0, 0x1p-53, 1e-9, 1 - 1e-9, 1 - 1e-16, 1};
+      for (int i = 0; i < 20; ++i) us.push_back(random.uniform());
+      std::ranges::sort(us);
+      double before = 0;
+      for (const double u : us) {
+        const ChannelPick<double, 3> pick(chance, u);
+        const double t = section.draw(pick);
+        ASSERT_GE(t, before) << all << " u " << u;
+        ASSERT_LE(t, all.ray.t_max) << all << " u " << u;
+        before = t;
+        const double part = section.integral_between(0, t)[c] / section.integral[c];
+        worst.see(std::abs(part - pick.u), all);
+      }
+    }
+  worst.expect_below(5e-14);
+}
+
+/// Draws of a placement against the density that it says, and that against quadrature.
+template <class Place>
+void expect_draws(const Place& place, unsigned seed) {
+  std::vector<double> ps;
+  for (const auto& one : traced(24, kinds, seed)) {
+    const auto& [all, media, joined, below, section] = *one;
+    const Channels<double, 3> carried{1, 0.8, 1.3};
+    const auto placed = place.on(section, carried);
+    std::vector<double> breaks = all.breaks();
+    breaks.insert(breaks.end(), section.pieces.t, section.pieces.t + section.pieces.count + 1);
+    std::erase_if(breaks, [&](double t) { return !(t > 0 && t < all.ray.t_max); });
+    ps.push_back(test::chi_squared_p(
+        64, 20'000, [&](double u) { return placed.sample(u); },
+        [&](double t) { return placed.pdf(t, section.at(t)); }, 0, all.ray.t_max, breaks, seed++));
+    EXPECT_GT(ps.back(), 1e-4) << all;
+  }
+  const double distance = kolmogorov_smirnov_distance(ps, [](double p) { return p; });
+  EXPECT_GT(kolmogorov_smirnov_p(distance, ps.size()), 1e-3);
+}
+
+TEST(JoinedMedia, are_sampled_as_every_placement_says) {
+  expect_draws(WholeVolume{}, 4);
+  expect_draws(Distance{}, 5);
+  expect_draws(Equidistant{}, 6);
+  expect_draws(Mixed{}, 7);
+}
+
+TEST(JoinedMedia, are_drawn_from_in_proportion_to_what_reaches_the_camera) {
+  // The whole volume's density in one channel, from the integrand itself.
+  unsigned seed = 8;
+  for (const auto& one : traced(12, kinds, 8)) {
+    const auto& [all, media, joined, below, section] = *one;
+    const Exact base = all.least_depth(0);
+    const double whole = all.integral(0, base, 0, all.ray.t_max);
+    const Channels<double, 3> first{1, 0, 0};
+    const double p = test::chi_squared_p(
+        64, 20'000, [&](double u) { return section.draw(ChannelPick<double, 3>(first, u)); },
+        [&](double t) {
+          return all.strength(t, 0) * double(std::exp(base - all.depth(t, 0))) / whole;
+        },
+        0, all.ray.t_max, all.breaks(), seed++);
+    EXPECT_GT(p, 1e-4) << all;
+  }
+}
+
+TEST(JoinedMedia, that_touch_and_are_alike_are_one) {
+  Worst worst("a box as two halves, relative error of T / (1 + depth)");
+  Random random(9);
+  const Medium whole = any_medium(random, Cell{}, false);
+  std::vector<Medium> halves(2, whole);
+  halves[0].shape = Box{{-1, -1, -1}, {0.3, 1, 1}};
+  halves[1].shape = Box{{0.3, -1, -1}, {1, 1, 1}};
+  const Joined joined(halves);
+  const Box::Space space = Box{}.space();
+  for (const test::Kind kind : kinds)
+    for (int i = 0; i < 40; ++i) {
+      const test::BoxRay ray = test::ray_of(kind, random);
+      if (!(ray.t_max > 0)) continue;
+      const auto in_two = section_of<double, 3>(joined, ray, whole);
+      Section<double, 3, Box::Space> in_one(space, {ray.o, ray.d}, ray.w, ray.t_max,
+                                            {whole.sigma_t.r, whole.sigma_t.g, whole.sigma_t.b});
+      in_one.trace_way_out();
+      for (int c = 0; c < 3; ++c) {
+        const double strength = whole.sigma_s[c] * evaluate(whole.phase, dot(ray.w, ray.d));
+        const double depth = in_one.trapezoids[c].depth;
+        worst.see(std::abs(in_two.integral[c] / (strength * in_one.integral[c]) - 1) / (1 + depth),
+                  ray);
+      }
+    }
+  worst.expect_below(1e-13);
+}
+
+TEST(Stretches, know_the_way_that_a_ray_goes_on_its_own) {
+  Worst back("distance at a depth, off by"), glow("emission, relative error");
+  Random random(10);
+  for (const auto& one : traced(120, kinds, 10)) {
+    std::vector<Medium> media = one->media;
+    for (Medium& medium : media) medium.emission = {random.uniform(), random.uniform(), 1};
+    const auto& ray = one->section.ray;
+    auto inside = one->joined.stretches(ray, media[0]);
+    inside.media = media.data();
+    const auto hull = inside.hull();
     for (int c = 0; c < 3; ++c) {
-      const Exact base = all.least_depth(c);
-      const double truth = all.integral(c, base, 0, all.ray.t_max);
-      if (truth < 1e-9) continue;
-      const double found =
-          section.pieces.total[c] * double(std::exp(base - Exact(section.pieces.depth[c])));
-      worst.see(std::abs(found / truth - 1) / (1 + double(base)), all);
+      const double whole = inside.depth(far_away)[c];
+      const double value = whole * random.uniform(0.01, 0.99);
+      const double t = inside.distance_at(value, c);
+      back.see(std::abs(inside.depth(t)[c] - value) / value, one->all);
+      EXPECT_GE(inside.distance_at(whole * 1.01, c), far_away);
+      EXPECT_GT(inside.sigma_t(t)[c], 0) << one->all;
+      std::vector<double> breaks(inside.enter, inside.enter + inside.count);
+      breaks.insert(breaks.end(), inside.leave, inside.leave + inside.count);
+      const double from = hull.t_enter + 0.1, to = hull.t_exit - 0.1;
+      if (to <= from) continue;
+      const double truth = test::integrate(
+          from, to,
+          [&](double x) {
+            double j = 0;
+            for (int k = 0; k < inside.count; ++k)
+              if (inside.holds(k, x)) j = media[std::size_t(k)].emission[c];
+            return j * std::exp(-inside.depth(x)[c]);
+          },
+          1e-12, breaks);
+      glow.see(std::abs(inside.emitted(from, to)[c] - truth) / truth, one->all);
     }
   }
-  worst.expect_below(2.5e-13);
+  back.expect_below(1e-13);
+  glow.expect_below(1e-11);
+}
+
+/// In F against double, both of numbers that F can hold. Every lane has a ray of its own.
+template <Real F>
+void expect_same(const char* what, double allowed) {
+  Worst worst(what);
+  Random random(11);
+  for (int i = 0; i < 100; ++i) {
+    Union all = any_union(random, kinds, false);
+    std::vector<Medium> media;
+    for (Union::Part& part : all.parts) {
+      Box box = std::get<Box>(part.medium.shape);
+      box.min = test::narrowed(box.min), box.max = test::narrowed(box.max);
+      part.medium.shape = box;
+      media.push_back(part.medium);
+    }
+    const Joined joined(media);
+    std::vector<test::BoxRay> rays;
+    Scalar<F> numbers[10][lanes<F>];
+    for (int k = 0; k < lanes<F>; ++k) {
+      test::BoxRay ray = test::ray_of(k % 2 ? test::Kind::generic : random.of(kinds), random);
+      if (k % 3 == 0) ray.o = ray.o - ray.d * random.uniform(0, 3);
+      ray = {test::narrowed(ray.o), test::narrowed(ray.d), test::narrowed(ray.w),
+             test::narrowed(random.uniform(0.5, 5))};
+      for (int c = 0; c < 3; ++c) {
+        numbers[c][k] = Scalar<F>(ray.o[c]), numbers[3 + c][k] = Scalar<F>(ray.d[c]);
+        numbers[6 + c][k] = Scalar<F>(ray.w[c]);
+      }
+      numbers[9][k] = Scalar<F>(ray.t_max);
+      rays.push_back(ray);
+    }
+    const auto vector = [&](int row) {
+      return Vec3<F>(load<F>(numbers[row]), load<F>(numbers[row + 1]), load<F>(numbers[row + 2]));
+    };
+    Section<F, 3, Joined> section(joined, {joined.point(vector(0)), vector(3)}, vector(6),
+                                  load<F>(numbers[9]), media[0]);
+    section.trace_way_out();
+    for (int k = 0; k < lanes<F>; ++k) {
+      // Light that all but follows a face crosses it anywhere, in single precision.
+      const Vec3<double>& w = rays[std::size_t(k)].w;
+      bool glides = false;
+      for (int c = 0; c < 3; ++c) glides |= w[c] != 0 && std::abs(w[c]) < 0.03;
+      if (glides) continue;
+      const auto truth = section_of<double, 3>(joined, rays[std::size_t(k)], media[0]);
+      for (int c = 0; c < 3; ++c) {
+        const double found = double(lane(section.integral[c], k));
+        double strongest = 0;
+        for (const Medium& medium : media)
+          strongest =
+              std::max(strongest,
+                       medium.sigma_s[c] * evaluate(medium.phase, dot(w, rays[std::size_t(k)].d)));
+        worst.see(std::abs(found - truth.integral[c]) / strongest, all);
+      }
+    }
+  }
+  worst.expect_below(allowed);
+}
+
+TEST(JoinedMedia, are_the_same_in_every_arithmetic) {
+  // Edges that rays pass within rounding of turn up on either side, which moves T by their parts
+  // of the ray.
+  expect_same<float>("T of a union in float, off by parts of the longest mean [m]", 1e-5);
+  expect_same<FloatBatch>("T of a union in lanes, off by parts of the longest mean [m]", 1e-5);
+}
+
+TEST(JoinedMedia, have_room_for_sixteen_boxes) {
+  Random random(12);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<Medium> media;
+    for (const Cell& cell : cells(random, Joined::most_parts))
+      media.push_back(any_medium(random, cell, false));
+    const Joined joined(media);
+    test::BoxRay ray = test::ray_of(random.of(kinds), random);
+    ray.t_max = 4;
+    const auto section = section_of<FloatBatch, 3>(joined, ray, media[0]);
+    EXPECT_LE(section.pieces.count, Joined::most_pieces);
+    EXPECT_GE(lane(section.integral[0], 0), 0);
+  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct ClosedMesh {
   using Point = std::array<double, 3>;
 
   /// No plane cuts more triangles: what is kept along a ray has a fixed size.
-  static constexpr int most_cut = 511;
+  static constexpr int most_cut = 640;
 
   std::vector<Point> corners;  ///< about `centre`  [m]
   /// Anticlockwise seen from outside. Triangles that share an edge share its corners.

@@ -47,6 +47,10 @@ struct SpaceBelowStart<F, Space> {
   const Space& space;
   F a, b;
 
+  template <Real G>
+  Vec3<G> point(Vec3<G> p) const noexcept {
+    return space.point(p);
+  }
   StretchesOf<F> stretches(const LocalRay<F>& ray, const Medium& medium) const noexcept {
     return space.stretches(ray, medium);
   }

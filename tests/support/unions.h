@@ -18,6 +18,7 @@ struct Union {
   };
   std::vector<Part> parts;
   BoxRay ray;
+  LightStart<double> start = {};  ///< where light starts
 
   /// The way of o + t d, t in [0, t_max], through a body.
   static Exact chord(const Body& body, const Point& o, const Point& d, Exact t_max) {
@@ -40,7 +41,7 @@ struct Union {
     Exact sum = 0;
     for (const Part& part : parts)
       sum += Exact(part.medium.sigma_t[c]) *
-             (chord(part.body, o, d, t) + chord(part.body, along(o, d, t), w, 1e6L));
+             (chord(part.body, o, d, t) + chord(part.body, along(o, d, t), w, start(double(t))));
     return sum;
   }
 
@@ -57,7 +58,7 @@ struct Union {
     std::vector<double> result;
     const Point o = point(ray.o), d = point(ray.d), w = point(ray.w);
     for (const Part& part : parts) {
-      std::vector<std::array<Exact, 2>> lines = {{0, 0}};
+      std::vector<std::array<Exact, 2>> lines = {{0, 0}, {start.a, start.b}};
       for (const HalfSpace& face : part.body) {
         const Exact facing = dot(face.n, w), above = face.h - dot(face.n, o);
         if (dot(face.n, d) != 0) result.push_back(double(above / dot(face.n, d)));

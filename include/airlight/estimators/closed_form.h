@@ -30,7 +30,6 @@ struct ClosedForm {
     const auto lit_by = lit_part(light, medium, space, whole_ray);
     const MediumRay<double>& ray = lit_by.ray;
     if (!ray.active) return;
-    using LitSpace = std::remove_cvref_t<decltype(lit_by.space)>;
     const Vec3<double> w = light.toward();
     auto section = section_along<double, channels>(medium, lit_by.space, ray, space.vector(w));
     section.trace_way_out();

@@ -217,17 +217,17 @@ inline void MeshSection::cut(const ClosedMesh& mesh, Vec3<double> o, Vec3<double
       (r[i] >= 0 ? from_t : to_t) = dot(t_of, at);
       (r[i] >= 0 ? from_s : to_s) = dot(s_of, at);
     }
-    if (from_t == to_t || (from_s <= 0 && to_s <= 0)) return;
     Segment segment{from_t, to_t, from_s, to_s, -1};
     if (to_t < from_t) segment = {to_t, from_t, to_s, from_s, 1};
+    // Two nodes a segment at most: the ends of its part between the ray and where light starts.
+    add_crossing(segment, start.a, start.b, t_max);
+    if (from_t == to_t || (from_s <= 0 && to_s <= 0)) return;
     if (segment.t1 <= 0 || segment.t0 >= t_max) return;
     segments_[segment_count_++] = segment;
-    // Two nodes a segment at most: the ends of its part between the ray and where light starts.
     for (const auto& [t, s] :
          {std::pair(segment.t0, segment.s0), std::pair(segment.t1, segment.s1)})
       if (s > 0 && s <= start(t) && t > 0 && t < t_max) nodes_[node_count_++] = t;
     add_crossing(segment, 0, 0, t_max);
-    add_crossing(segment, start.a, start.b, t_max);
   });
 }
 
