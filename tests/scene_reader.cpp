@@ -12,6 +12,7 @@
 #include "error.h"
 #include "scene/load_scene.h"
 #include "scene/reader.h"
+#include "support/scratch.h"
 
 namespace airlight {
 namespace {
@@ -294,8 +295,84 @@ TEST(SceneReader, refuses_other_pairs_of_coefficients) {
   EXPECT_THAT(error_with("albedo = 1\nvisibility = 0\n"), HasSubstr("visibility = 0 is out of"));
 }
 
-TEST(SceneReader, takes_one_medium_with_a_shape) {
-  EXPECT_THAT(error_of(fog + fog), HasSubstr("media.1 is a second medium: one is accepted so far"));
+/// A box of fog from x = low to x = high.
+std::string fog_between(double low, double high) {
+  return fmt::format(
+      "[[media]]\nsigma_s = 0.1\nsigma_a = 0\n"
+      "shape = {{type = \"box\", min = [{}, 0, 0], max = [{}, 1, 1]}}\n",
+      low, high);
+}
+
+TEST(SceneReader, takes_media_side_by_side) {
+  const Scene scene = parse_scene(fog_between(0, 1) + fog_between(1, 2), "fog.toml");
+  ASSERT_EQ(scene.media.size(), 2u);
+  EXPECT_EQ(std::get<Box>(scene.media[1].shape).max.x, 2);
+  // What touches but for rounding touches.
+  EXPECT_EQ(error_of(fog_between(0, 0.1 + 0.2) + fog_between(0.3, 1)), "");
+}
+
+TEST(SceneReader, refuses_media_that_do_not_fit_side_by_side) {
+  EXPECT_EQ(error_of(fog_between(0, 1) + fog_between(2, 3) + fog_between(0.9, 2)),
+            "fog.toml:1:3: media hold two that overlap, media.0 and media.2; accepted: media that "
+            "touch at most");
+  std::string many, faces;
+  for (int i = 0; i < 17; ++i) many += fog_between(i, i + 1);
+  EXPECT_THAT(error_of(many), HasSubstr("media are 17; accepted: up to 16 side by side"));
+  const std::string endless =
+      "[[media]]\nsigma_s = 1\nsigma_a = 0\nshape = {type = \"unbounded\"}\n";
+  EXPECT_THAT(error_of(fog_between(0, 1) + endless),
+              HasSubstr("media cannot lie side by side, as media.1 is of type unbounded; accepted: "
+                        "several of type box or convex, or one alone of any type"));
+}
+
+/// A file with triangles over the unit cube's corners, and a scene with fog inside it.
+struct MeshOfFog {
+  ScratchFolder folder;
+
+  explicit MeshOfFog(const std::string& faces) {
+    std::string corners;
+    for (int i = 0; i < 8; ++i)
+      corners += fmt::format("v {} {} {}\n", i & 1, (i >> 1) & 1, (i >> 2) & 1);
+    std::ofstream(folder.path() / "fog.obj") << corners << faces;
+  }
+
+  std::string scene() const { return (folder.path() / "fog.toml").string(); }
+  Scene load(const std::string& keys = "") const {
+    return parse_scene(
+        "[[media]]\nsigma_s = 1\nsigma_a = 0\nshape = {type = \"mesh\", file = "
+        "\"fog.obj\"" +
+            keys + "}\n",
+        scene());
+  }
+};
+
+constexpr const char* cube = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+TEST(SceneReader, takes_a_medium_inside_a_mesh) {
+  const Scene scene = MeshOfFog(cube).load(", scale = 2, translate = [0, 0, 5]");
+  const ClosedMesh& mesh = *std::get<Solid>(scene.media.at(0).shape).mesh;
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.centre, (ClosedMesh::Point{1, 1, 6}));
+}
+
+TEST(SceneReader, refuses_a_medium_inside_a_mesh_that_closes_off_nothing) {
+  const auto error_with = [](const std::string& faces) -> std::string {
+    const MeshOfFog fog(faces);
+    try {
+      fog.load();
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(fog.scene().size());
+    }
+    return "";
+  };
+  EXPECT_EQ(error_with(cube), "");
+  EXPECT_EQ(error_with("f 1 3 4 2\n"),
+            ":4:32: media.0.shape.file = \"fog.obj\" is no closed body: its edge from [0, 0, 0] to "
+            "[1, 0, 0] belongs to 1 triangle; accepted: 2 at every edge");
+  EXPECT_THAT(error_with(""), HasSubstr("media.0.shape.file"));
+}
+
+TEST(SceneReader, asks_for_the_shape_of_a_medium) {
   EXPECT_THAT(error_of("[[media]]\nalbedo = 1\nsigma_t = 1\n"),
               StartsWith("fog.toml:1:1: media.0.shape is missing; a table with a type: box, "));
 }
