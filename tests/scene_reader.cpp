@@ -313,7 +313,7 @@ TEST(SceneReader, takes_media_side_by_side) {
 
 TEST(SceneReader, refuses_media_that_do_not_fit_side_by_side) {
   EXPECT_EQ(error_of(fog_between(0, 1) + fog_between(2, 3) + fog_between(0.9, 2)),
-            "fog.toml:1:3: media hold two that overlap, media.0 and media.2; accepted: media that "
+            "fog.toml:1:1: media hold two that overlap, media.0 and media.2; accepted: media that "
             "touch at most");
   std::string many, faces;
   for (int i = 0; i < 17; ++i) many += fog_between(i, i + 1);
@@ -368,7 +368,7 @@ TEST(SceneReader, refuses_a_medium_inside_a_mesh_that_closes_off_nothing) {
   EXPECT_EQ(error_with(cube), "");
   EXPECT_EQ(error_with("f 1 3 4 2\n"),
             ":4:32: media.0.shape.file = \"fog.obj\" is no closed body: its edge from [0, 0, 0] to "
-            "[1, 0, 0] belongs to 1 triangle; accepted: 2 at every edge");
+            "[0, 1, 0] belongs to 1 triangle; accepted: 2 at every edge");
   EXPECT_THAT(error_with(""), HasSubstr("media.0.shape.file"));
 }
 
