@@ -43,7 +43,7 @@ struct SolidDocument : Transform {
     field("file", &D::file, unit::none, any_number(),
           "a model (.obj, .gltf, .glb) whose triangles close off the medium: two at every edge, "
           "none through another; its path starts at the scene file");
-    Transform::describe(field);
+    Transform::describe_of<SolidDocument>(field);
   }
 };
 

@@ -12,13 +12,15 @@ struct Transform {
   Vec3<double> rotate{0, 0, 0};
   Vec3<double> translate{0, 0, 0};
 
-  template <class Visitor>
-  static constexpr void describe(Visitor&& field) {
-    using T = Transform;
-    field("scale", &T::scale, unit::one, closed(1e-6, 1e6), "about the origin, before the turn");
-    field("rotate", &T::rotate, unit::degree, any_number(),
-          "about the x axis, then y, then z, through the origin");
-    field("translate", &T::translate, unit::metre, any_number(), "where its origin is put");
+  /// Describes the keys as those of the struct derived from this one.
+  template <class Owner, class Visitor>
+  static constexpr void describe_of(Visitor&& field) {
+    field("scale", static_cast<double Owner::*>(&Transform::scale), unit::one, closed(1e-6, 1e6),
+          "about the origin, before the turn");
+    field("rotate", static_cast<Vec3<double> Owner::*>(&Transform::rotate), unit::degree,
+          any_number(), "about the x axis, then y, then z, through the origin");
+    field("translate", static_cast<Vec3<double> Owner::*>(&Transform::translate), unit::metre,
+          any_number(), "where its origin is put");
   }
 
   bool is_none() const {

@@ -22,7 +22,7 @@ struct PlacedObject : Transform {
   static constexpr void describe(Visitor&& field) {
     using O = PlacedObject;
     field("name", &O::label, unit::none, any_number(), "what reports call it");
-    Transform::describe(field);
+    Transform::describe_of<PlacedObject>(field);
     field("holdout", &O::holdout, unit::none, any_number(),
           "stands for a thing in the background's picture: it blocks and shadows, and the camera "
           "sees the background in its place");
