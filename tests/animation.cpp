@@ -440,7 +440,7 @@ TEST(MovingModel, moves_what_stands_on_what_moves_and_the_camera) {
   expect_near(std::get<Directional>(start.lights.at(0)).direction, {0, 0, -1});
   expect_near(std::get<Directional>(end.lights.at(0)).direction, {0, 1, 0});
   // What is made up stays in its place.
-  EXPECT_EQ(std::get<Box>(start.medium->shape).min, std::get<Box>(end.medium->shape).min);
+  EXPECT_EQ(std::get<Box>(start.media[0].shape).min, std::get<Box>(end.media[0].shape).min);
 }
 
 TEST(MovingModel, says_what_it_leaves_out) {
