@@ -10,6 +10,7 @@ namespace airlight {
 /// Media".
 namespace paper_000 {
 void fig1a(Reproduced& out);
+void fig2(Reproduced& out);
 void fig4(Reproduced& out);
 void fig5(Reproduced& out);
 void fig6_single(Reproduced& out);
@@ -24,6 +25,9 @@ constexpr Reproduction all[] = {
     {"000/fig1a", "A sunlit room at four samples a pixel",
      "Sun through windows into the fog of a furnished room, by every estimator at 4 spp.",
      paper_000::fig1a},
+    {"000/fig2", "Shafts of light laid over a photograph",
+     "Dust and sun added to the picture of a real room, by holdouts and its depth image.",
+     paper_000::fig2},
     {"000/fig4", "Where whole-volume samples go: one trapezoid",
      "The samples' histogram against their density where the way through the medium has one piece.",
      paper_000::fig4},
