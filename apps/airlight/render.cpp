@@ -107,7 +107,9 @@ struct Turn {
 /// Renders a scene into files. Returns the exit status.
 int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
                    const Turn& turn = {}) {
-  if (manner.alpha) scene.background = {}, scene.background_image = {};
+  // The camera sees no background; what it sends elsewhere stays.
+  if (manner.alpha)
+    scene.background_image = airlight::Image(scene.resolution.width, scene.resolution.height);
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
   if (!manner.quiet && turn.is_first) SceneFlags::tell(scene);
