@@ -12,6 +12,7 @@
 #include "error.h"
 #include "scene/load_scene.h"
 #include "scene/reader.h"
+#include "support/program.h"
 #include "support/scratch.h"
 
 namespace airlight {
@@ -128,8 +129,15 @@ TEST(SceneReader, takes_the_direction_of_light_in_two_ways) {
 }
 
 TEST(SceneReader, loads_every_scene_of_the_project) {
+  const test::Folder folder;
+  std::filesystem::copy(AIRLIGHT_SOURCE_DIR "/scenes", folder / "",
+                        std::filesystem::copy_options::recursive);
+  // plate_room.toml wants a depth image that a render makes: here a PFM with a depth of 1 m.
+  std::string depths = "Pf\n16 9\n-1.0\n";
+  for (int i = 0; i < 16 * 9; ++i) depths += std::string("\0\0\x80\x3f", 4);
+  test::write_bytes(folder / "depth.exr", depths);
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(AIRLIGHT_SOURCE_DIR "/scenes")) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "")) {
     if (entry.path().extension() != ".toml") continue;
     const Scene scene = load_scene(entry.path());
     EXPECT_FALSE(scene.media.empty()) << entry.path();

@@ -48,6 +48,10 @@ void print_medium(const std::string& name, const airlight::Medium& medium,
 void print(const airlight::Scene& scene, const Summary& summary) {
   fmt::print("objects    {} ({} triangles, {} spheres), {} textures\n", summary.objects,
              summary.triangles, summary.spheres, summary.textures);
+  if (summary.holdouts > 0)
+    fmt::print("           {} of them holdouts, which show {} in their place\n", summary.holdouts,
+               scene.background_image.pixels.empty() ? "the background, no picture,"
+                                                     : "the background's picture");
   if (!summary.bounds.empty())
     fmt::print("bounds     {} to {} m\n", text(summary.bounds.low), text(summary.bounds.high));
   fmt::print(

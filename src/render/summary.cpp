@@ -160,6 +160,7 @@ void count(const Scene& scene, Summary& result) {
   result.objects = scene.objects.size();
   result.textures = scene.textures.size();
   for (const Object& object : scene.objects) {
+    result.holdouts += object.holdout;
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
     if (!mesh) {
       ++result.spheres;
@@ -171,6 +172,7 @@ void count(const Scene& scene, Summary& result) {
         std::span(mesh->uvs).size_bytes() + std::span(mesh->triangles).size_bytes();
   }
   for (const Texture& texture : scene.textures) result.memory.textures += texture.rgba.size();
+  result.memory.textures += std::span(scene.background_image.pixels).size_bytes();
   result.memory.hierarchy = hierarchy_bytes_a_triangle * result.triangles;
   result.bounds = bounds_of(scene);
 }

@@ -43,7 +43,7 @@ struct MemorySummary {
 
 /// What is in a scene and what to expect of it.
 struct Summary {
-  std::size_t objects = 0, triangles = 0, spheres = 0, textures = 0;
+  std::size_t objects = 0, triangles = 0, spheres = 0, holdouts = 0, textures = 0;
   Bounds bounds;                     ///< around all objects
   std::vector<MediumSummary> media;  ///< one each
   std::vector<LightSummary> lights;
