@@ -115,7 +115,8 @@ void expect_unbiased(std::span<const Medium> media, const test::BoxRay& ray, con
         EXPECT_LT(std::abs(test::z_score(sums[c][k], truths[k], rounding * scale)), 4)
             << what << ", sum " << k << ", channel " << c << ": " << mean(sums[c][k]) << " for "
             << truths[k];
-        EXPECT_LT(standard_error(sums[c][k]), 5e-4 * scale) << what << ", sum " << k;
+        // The march also steps where nothing scatters; all others are below half of this.
+        EXPECT_LT(standard_error(sums[c][k]), 1e-3 * scale) << what << ", sum " << k;
       }
     }
   }
