@@ -68,6 +68,7 @@ inline constexpr std::uint32_t camera = 0;
 inline constexpr std::uint32_t flight = 1, direction = 2, side = 3, roulette = 4;
 /// Which light's sample a path goes on from.
 inline constexpr std::uint32_t light = 5;
+inline constexpr std::uint32_t light_choice = 6;  ///< where a sample asks one light only
 constexpr std::uint32_t distance(int light) noexcept { return 8u + 4u * std::uint32_t(light); }
 constexpr std::uint32_t disc(int light) noexcept { return 9u + 4u * std::uint32_t(light); }
 constexpr std::uint32_t surface(int light) noexcept { return 10u + 4u * std::uint32_t(light); }

@@ -33,6 +33,7 @@ struct Frame {
   Estimators estimator;
   PathSettings paths = {};
   PixelFilter filter = PixelFilter::tent;
+  LightSelection light_selection = LightSelection::all;
   bool through_centre = false;  ///< every sample of a pixel shares the ray through its centre
   /// Samples that a camera ray is traced for; where all share one, what is taken of it at a time.
   std::uint32_t samples_per_ray = 1;

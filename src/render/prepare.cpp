@@ -87,6 +87,11 @@ void check_paths(const Estimators& estimator, const RenderSettings& settings) {
         "render.max_depth = {}: edges = \"per_step\" is the plain march of light that scatters "
         "once; accepted: 1, or edges = \"cached\"",
         settings.max_depth));
+  if (settings.light_selection != LightSelection::all)
+    throw Error(
+        fmt::format("render.max_depth = {}: paths ask every light at every vertex; "
+                    "accepted: 1, or light_selection = \"all\"",
+                    settings.max_depth));
   const bool mixed = std::holds_alternative<Mixed>(sampled->placement);
   const bool whole = std::holds_alternative<WholeVolume>(sampled->placement);
   const bool fits = settings.continuation == Continuation::distance || whole ||
@@ -135,6 +140,12 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
         image.width, image.height, image.channels, scene.resolution.width,
         scene.resolution.height));
   check_paths(estimator, settings);
+  if (std::holds_alternative<ClosedForm>(estimator) &&
+      settings.light_selection != LightSelection::all)
+    throw Error(
+        fmt::format("estimator {} has no samples that could ask one light each: accepted "
+                    "with it is light_selection = \"all\"",
+                    ClosedForm::name));
   if (const auto reason = cannot_be_joined(scene.media)) throw Error("media " + *reason);
   const bool in_pieces =
       scene.media.size() > 1 ||
@@ -196,6 +207,7 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   // What the sky and surfaces send into the medium is no part of a ratio.
   if (settings.max_depth > 1) frame.layout.plain = true;
   frame.light_group = light_group_indices(scene);
+  frame.light_selection = settings.light_selection;
   frame.filter = settings.filter;
   // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all
   // share one.

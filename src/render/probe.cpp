@@ -69,7 +69,7 @@ class LightProbe {
     section_.trace_way_out();
   }
 
-  ProbedLight operator()(SampleRange samples) const {
+  ProbedLight operator()(SampleRange samples, const LightShare<double>* share) const {
     ProbedLight result;
     result.light = std::size_t(light_index_);
     result.toward = toward_;
@@ -80,7 +80,7 @@ class LightProbe {
     result.transmittance_integral = ray_.dimmed * to_rgb(section_.integral);
     add_nodes(result);
     add_steps(result);
-    add_samples(result, samples);
+    add_samples(result, samples, share);
     return result;
   }
 
@@ -179,10 +179,11 @@ class LightProbe {
         sampled->placement);
   }
 
-  void add_samples(ProbedLight& result, SampleRange samples) const {
+  void add_samples(ProbedLight& result, SampleRange samples,
+                   const LightShare<double>* share) const {
     Halves<double> sums;
     add_in_scatter<channels>(
-        frame_, space_, light_, light_index_, whole_ray_, samples, sampler_, sums,
+        frame_, space_, light_, light_index_, whole_ray_, samples, share, sampler_, sums,
         [&](const WatchedSample<double>& s) {
           result.samples.push_back({s.index, s.t, s.pdf, s.weight, s.visibility});
         });
@@ -208,21 +209,26 @@ class LightProbe {
 
 void probe_lights(const Frame& frame, const Sampler<double>& sampler,
                   const MediumRay<double>& medium_ray, ProbedRay& ray, SampleRange samples) {
-  const auto probe_light = [&]<int channels>(const auto& space, const auto& light, int index) {
+  const auto probe_light = [&]<int channels>(const auto& space, const auto& light, int index,
+                                             const LightShare<double>* share) {
     LightProbe<channels, std::remove_cvref_t<decltype(space)>, std::remove_cvref_t<decltype(light)>>
         one(frame, space, sampler, medium_ray, light, index);
-    ray.lights.push_back(one(samples));
+    ray.lights.push_back(one(samples, share));
   };
+  std::vector<double> weights(frame.scene.lights.size());
   with_space(frame.scene.media, [&](const Medium* medium, const auto& space) {
-    for (std::size_t i = 0; medium && i < frame.scene.lights.size(); ++i)
+    if (!medium) return;
+    const auto probe = [&](int i, const LightShare<double>* share) {
       std::visit(
           [&](const auto& light) {
             if (is_grey(*medium, space))
-              probe_light.template operator()<1>(space, light, int(i));
+              probe_light.template operator()<1>(space, light, i, share);
             else
-              probe_light.template operator()<3>(space, light, int(i));
+              probe_light.template operator()<3>(space, light, i, share);
           },
-          frame.scene.lights[i]);
+          frame.scene.lights[std::size_t(i)]);
+    };
+    for_each_light_share(frame, space, medium_ray, sampler, weights, probe);
   });
 }
 

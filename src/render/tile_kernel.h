@@ -6,6 +6,7 @@
 #include "render/background.h"
 #include "render/camera_ray.h"
 #include "render/kernel.h"
+#include "render/light_shares.h"
 #include "render/path_kernel.h"
 #include "render/surface_walk.h"
 
@@ -116,16 +117,16 @@ struct ExactVisibility {
   }
 };
 
-/// Adds what one light scatters into one camera ray, by the frame's estimator; `watch` is told of
-/// every sample.
+/// Adds what one light scatters into one camera ray, by the frame's estimator, from the samples
+/// that the light shares in; `watch` is told of every one of them.
 template <int channels, Real F, class Space, class L, class Watch>
 void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
-                    const MediumRay<F>& ray, SampleRange samples, const Sampler<F>& sampler,
-                    Halves<F>& sums, Watch&& watch) noexcept {
+                    const MediumRay<F>& ray, SampleRange samples, const LightShare<F>* share,
+                    const Sampler<F>& sampler, Halves<F>& sums, Watch&& watch) noexcept {
   const bool halve_by_ray = !frame.through_centre;
   if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
     sampled->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    halve_by_ray, sampler, frame.world, sums, watch);
+                                    halve_by_ray, sampler, frame.world, sums, watch, share);
   if constexpr (std::same_as<F, double>)
     if (const auto* exact = std::get_if<ClosedForm>(&frame.estimator); exact && ray.active)
       exact->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
@@ -134,9 +135,9 @@ void add_in_scatter(const Frame& frame, const Space& space, const L& light, int 
 
 template <int channels, Real F, class Space, class L>
 void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
-                    const MediumRay<F>& ray, SampleRange samples, const Sampler<F>& sampler,
-                    Halves<F>& sums) noexcept {
-  add_in_scatter<channels>(frame, space, light, index, ray, samples, sampler, sums,
+                    const MediumRay<F>& ray, SampleRange samples, const LightShare<F>* share,
+                    const Sampler<F>& sampler, Halves<F>& sums) noexcept {
+  add_in_scatter<channels>(frame, space, light, index, ray, samples, share, sampler, sums,
                            [](const WatchedSample<F>&) {});
 }
 
@@ -161,7 +162,8 @@ class TileKernel {
         space_(space),
         watcher_(watcher),
         sums_(frame.layout),
-        surface_(std::size_t(frame.layout.groups)) {
+        surface_(std::size_t(frame.layout.groups)),
+        weights_(frame.scene.lights.size(), F(0)) {
     if (medium) camera_local_ = Vec3<F>(space.point(frame.camera.position));
   }
 
@@ -252,17 +254,18 @@ class TileKernel {
     if (!any(ray.active)) return;
     watcher_.medium_ray(ray);
 
-    for (int i = 0; i < int(frame_.scene.lights.size()); ++i) {
+    const auto add = [&](int i, const LightShare<F>* share) {
       Halves<F>& sums = sums_.groups[std::size_t(frame_.light_group[std::size_t(i)])].in_scatter;
       std::visit(
           [&](const auto& light) {
             if (is_grey(*medium_, space_))
-              add_in_scatter<1>(frame_, space_, light, i, ray, samples, sampler, sums);
+              add_in_scatter<1>(frame_, space_, light, i, ray, samples, share, sampler, sums);
             else
-              add_in_scatter<3>(frame_, space_, light, i, ray, samples, sampler, sums);
+              add_in_scatter<3>(frame_, space_, light, i, ray, samples, share, sampler, sums);
           },
           frame_.scene.lights[std::size_t(i)]);
-    }
+    };
+    for_each_light_share(frame_, space_, ray, sampler, weights_, add);
   }
 
   const Frame& frame_;
@@ -273,6 +276,7 @@ class TileKernel {
   Vec3<F> camera_local_;
   PacketSums<F> sums_;
   std::vector<Rgb<F>> surface_;  ///< of one camera ray, by light group
+  std::vector<F> weights_;       ///< of lights on one camera ray
 };
 
 template <Real F, class Watcher>

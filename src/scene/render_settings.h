@@ -11,6 +11,7 @@ enum class Edges { cached, per_step };
 enum class MixWith { equidistant, distance };
 enum class Continuation { distance, mix, whole_volume };
 enum class SurfaceSums { split, ratio };
+enum class LightSelection { all, unoccluded, uniform };
 enum class PixelFilter { box, tent, gaussian };
 enum class Noise { per_frame, still };
 enum class Visibility { embree, analytic };
@@ -40,6 +41,13 @@ template <>
 inline constexpr Word<SurfaceSums> words<SurfaceSums>[] = {
     {"split", SurfaceSums::split, "light on surfaces is a plain sum beside the medium's"},
     {"ratio", SurfaceSums::ratio, "light on surfaces is folded into the estimator's form"},
+};
+template <>
+inline constexpr Word<LightSelection> words<LightSelection>[] = {
+    {"all", LightSelection::all, "every sample asks every light"},
+    {"unoccluded", LightSelection::unoccluded,
+     "every sample asks one light, picked by what it would give if nothing stood in its way"},
+    {"uniform", LightSelection::uniform, "every sample asks one light, picked blindly"},
 };
 template <>
 inline constexpr Word<PixelFilter> words<PixelFilter>[] = {
@@ -78,6 +86,7 @@ struct RenderSettings {
   std::int64_t max_depth = 1;
   Continuation continuation = Continuation::distance;
   SurfaceSums surface = SurfaceSums::split;
+  LightSelection light_selection = LightSelection::all;
   std::int64_t spp = 16;
   std::int64_t samples_per_ray = 4;  ///< 0: all
   std::int64_t seed = 0;
@@ -111,8 +120,10 @@ struct RenderSettings {
           "where a path of max_depth above 1 scatters next");
     field("surface", &S::surface, unit::none, any_number(),
           "how paths of max_depth above 1 sum the light on surfaces");
+    field("light_selection", &S::light_selection, unit::none, any_number(),
+          "which lights a visibility sample in the medium asks; surfaces ask all");
     field("spp", &S::spp, unit::none, closed(1, 1 << 28),
-          "visibility samples a pixel gets for each light");
+          "visibility samples a pixel gets, for each light unless light_selection says otherwise");
     field("samples_per_ray", &S::samples_per_ray, unit::none, closed(0, 1 << 28),
           "how many of them share a camera ray, a power of two; 0, or spp up to this without "
           "first_sample: all, through the pixel's centre, without filter");

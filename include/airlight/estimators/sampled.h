@@ -19,6 +19,27 @@ struct WatchedSample {
   Rgb<F> visibility;  ///< 0 to 1
 };
 
+/// The samples that a light gets of a ray where each sample asks one light only: those whose
+/// number, times the sum of all lights' weights, falls on this light's. Picked with probability
+/// weight / total, the light counts for total / weight as much (Velinov 2021 section 1.1).
+template <Real F>
+struct LightShare {
+  F below;   ///< the sum of the weights of the lights before this one
+  F weight;  ///< >= 0
+  F total;   ///< of all lights' weights
+
+  /// Whether the light is the one for u in [0, 1), and u made uniform in [0, 1] again if so: one
+  /// number serves both, and strata stay strata.
+  Mask<F> takes(F& u) const noexcept {
+    const F x = u * total;
+    u = clamp((x - below) / select(weight > F(0), weight, F(1)), F(0), F(1));
+    return (x >= below) & (x < below + weight);
+  }
+
+  /// What a sample of the light counts for; of a light that is all but never picked, finite.
+  F boost() const noexcept { return min(total / select(weight > F(0), weight, F(1)), F(1e30f)); }
+};
+
 /// Samples along the camera ray, each asking once whether light arrives: any placement with any
 /// form, the stochastic estimators of Velinov 2021 section 3 and more.
 struct Sampled {
@@ -56,9 +77,10 @@ struct Sampled {
   /// A sample before its shadow ray.
   template <Real F, class Point>
   struct Drawn {
-    F t, along;  ///< from the entry, and from the camera  [m]
-    Point at;    ///< what the section knows of it
-    F reach;     ///< from the sample to where light begins  [m]
+    F t, along;     ///< from the entry, and from the camera  [m]
+    Point at;       ///< what the section knows of it
+    F reach;        ///< from the sample to where light begins  [m]
+    Mask<F> asked;  ///< the lanes whose sample asks this light
     Rgb<F> weight;
     Vec3<F> from, to_light;
   };
@@ -90,13 +112,32 @@ struct Sampled {
     return result;
   }
 
-  /// Adds the samples of one camera ray for one light. `channels` is 1 for a grey medium and 3
-  /// otherwise; `watch` is told of every sample.
+  /// The in-scatter of a ray if nothing stood in the light's way, as the mean of its channels: a
+  /// weight to pick lights by.  [W/(m² sr)]
+  template <int channels, Real F, class Space, class L>
+  static F unoccluded(const Medium& medium, const Space& space, const L& light, int light_index,
+                      const MediumRay<F>& whole_ray, const Sampler<F>& sampler) noexcept {
+    const auto lit = lit_part(light, medium, space, whole_ray);
+    const MediumRay<F>& ray = lit.ray;
+    if (!any(ray.active)) return F(0);
+    const Vec3<F> w = toward<F>(light, light_index, ray.index, sampler);
+    auto section = section_along<F, channels>(medium, lit.space, ray, space.vector(w));
+    section.trace_way_out();
+    const Rgb<F> radiance = Rgb<F>(strength_along<Space>(medium, light.irradiance)) * ray.dimmed *
+                            to_rgb<F>(section.integral) *
+                            phase_along<Space>(medium, dot(w, ray.direction));
+    return (radiance.r + radiance.g + radiance.b) * F(1. / 3);
+  }
+
+  /// Adds the samples of one camera ray for one light: all of them or, with a share, those that the
+  /// light gets. `channels` is 1 for a grey medium and 3 otherwise; `watch` is told of every
+  /// sample.
   template <int channels, Real F, class Space, class L, DrawsPoints<F> Points,
             AnswersVisibility<F> W, class Watch>
   void add(const Medium& medium, const Space& space, const L& light, int light_index,
            const MediumRay<F>& whole_ray, SampleRange samples, bool halve_by_ray,
-           const Points& sampler, const W& world, Halves<F>& sums, Watch&& watch) const noexcept {
+           const Points& sampler, const W& world, Halves<F>& sums, Watch&& watch,
+           const LightShare<F>* share = nullptr) const noexcept {
     const auto lit = lit_part(light, medium, space, whole_ray);
     const MediumRay<F>& ray = lit.ray;
     if (!any(ray.active)) return;
@@ -119,12 +160,19 @@ struct Sampled {
         [&](const Placement auto& place) {
           const auto placed =
               place.on(section, carried<channels, Space>(medium, light, ray.dimmed));
-          const auto distances = sampler.stream(stream::distance(light_index));
+          const auto distances =
+              sampler.stream(share ? stream::light_choice : stream::distance(light_index));
           const auto discs = sampler.stream(stream::disc(light_index));
           using Sample = Drawn<F, typename decltype(section)::Point>;
           const auto draw = [&](std::uint32_t i) {
             Sample d;
-            d.t = placed.sample(distances.one(i));
+            d.asked = ray.active;
+            F u = distances.one(i);
+            if (share) {
+              d.asked = d.asked & share->takes(u);
+              if (!any(d.asked)) return d;
+            }
+            d.t = placed.sample(u);
             d.along = ray.t_enter + d.t;
             d.from = ray.origin + ray.direction * d.along;
             d.reach = light.reach(d.from);
@@ -144,16 +192,21 @@ struct Sampled {
                        (phase / toward_camera);
             return d;
           };
-          const auto trace = [&](std::uint32_t i, const Sample& d) {
-            Rgb<F> visible = world.transmit(d.from, d.to_light, d.reach, light_index, ray.active);
-            if (ray.filtered)
-              visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, ray.active);
-            watch(WatchedSample<F>{i, d.along, placed.pdf(d.t, d.at), d.weight * ray.dimmed,
-                                   visible});
+          const auto trace = [&](std::uint32_t i, Sample& d) {
             const int half = half_of(halve_by_ray ? ray.index : i);
-            occluded[half] += d.weight * visible;
-            unoccluded[half] += select(ray.active, d.weight, Rgb<F>());
             ++count[half];
+            if (share) {
+              if (!any(d.asked)) return;
+              d.weight = d.weight * select(d.asked, share->boost(), F(0));
+            }
+            Rgb<F> visible = world.transmit(d.from, d.to_light, d.reach, light_index, d.asked);
+            if (ray.filtered)
+              visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, d.asked);
+            const F pdf = placed.pdf(d.t, d.at);
+            watch(WatchedSample<F>{i, d.along, share ? pdf / share->boost() : pdf,
+                                   d.weight * ray.dimmed, visible});
+            occluded[half] += d.weight * visible;
+            unoccluded[half] += select(d.asked, d.weight, Rgb<F>());
           };
           const std::uint32_t end = samples.first + samples.count;
           for (std::uint32_t i = samples.first; i < end; i += drawn_ahead) {
