@@ -1,5 +1,6 @@
 #include "closed_form.h"
 #include "convergence.h"
+#include "light_selection.h"
 #include "loading.h"
 #include "memory.h"
 #include "row.h"
@@ -17,6 +18,8 @@ std::vector<Bench> benches() {
       {"closed_form", "the closed-form integral of a box, one core", closed_form},
       {"shadow_rays", "shadow rays of a whole render against bare Embree, one core", shadow_rays},
       {"convergence", "time to 40 dB on the sphere in fog, one core", convergence},
+      {"light_selection", "noise of samples that ask one of five suns each, closed form over blind",
+       light_selection},
       {"loading", "an OBJ of 270 000 triangles to the first ray", loading},
   };
 }
