@@ -246,5 +246,19 @@ TEST(LightSelection, is_refused_where_there_are_no_samples) {
   }
 }
 
+TEST(LightSelection, is_refused_on_paths) {
+  Scene scene = four_lights(false);
+  scene.render.light_selection = LightSelection::unoccluded;
+  scene.render.max_depth = 2;
+  try {
+    render(scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "render.max_depth = 2: paths ask every light at every vertex; accepted: 1, or "
+                 "light_selection = \"all\"");
+  }
+}
+
 }  // namespace
 }  // namespace airlight
