@@ -4,8 +4,8 @@
 
 namespace airlight {
 
-/// Memory that is zero without being written: a system that hands out fresh pages zeroes each when
-/// it is first touched, by the worker that renders there and not by the one that asks for it.
+/// Memory that is zero without being written: a system that hands out fresh pages zeroes each when it
+/// is first touched, by the worker that renders there and not by the one that asks for it.
 template <class T>
 struct ZeroedMemory {
   using value_type = T;
