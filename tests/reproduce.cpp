@@ -103,6 +103,19 @@ TEST(Reproduce, names_what_is_accepted_where_a_name_is_unknown) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(Reproduce, shows_a_scene_of_the_user_where_it_can) {
+  const Folder folder;
+  const Outcome refused =
+      run({"reproduce", "000/fig4", "--scene", "room.toml", "-o", folder / "out"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err,
+            "--scene: 000/fig4 shows a scene of its own; accepted with it: 000/fig9, 000/table2\n");
+  const Outcome missing =
+      run({"reproduce", "000/fig9", "--scene", folder / "none.toml", "-o", folder / "out"});
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, StartsWith(folder / "none.toml"));
+}
+
 TEST(Reproduce, asks_for_a_folder_that_can_be_made) {
   const Outcome none = run({"reproduce", "000/fig4"});
   EXPECT_EQ(none.status, 2);

@@ -15,12 +15,13 @@ constexpr int out_of_range = 1;
 
 struct Flags {
   std::string name;
-  std::filesystem::path folder;
+  std::filesystem::path folder, scene;
 };
 
 constexpr const char* examples = R"(Examples:
   airlight reproduce
   airlight reproduce 000/fig6-single -o fig6
+  airlight reproduce 000/table2 --scene room.glb -o table2
   airlight reproduce 000 -o report
 
 Without a name it lists what there is. A part of a name, such as 000, means all that begin with it; each then has a folder
@@ -34,9 +35,10 @@ int list() {
 }
 
 /// Runs one and tells how it went, a line for each value that leaves its range.
-bool holds(const Reproduction& reproduction, const std::filesystem::path& folder) {
+bool holds(const Reproduction& reproduction, const std::filesystem::path& folder,
+           const std::filesystem::path& scene) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Row> rows = reproduce(reproduction, folder);
+  const std::vector<Row> rows = reproduce(reproduction, folder, scene);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   std::size_t held = 0;
   for (const Row& row : rows) {
@@ -57,9 +59,11 @@ int reproduce_all(const Flags& flags) {
   if (flags.folder.empty())
     throw airlight::Error(
         "reproduce: -o is missing; accepted: -o DIR, the folder that the page goes to");
+  if (!flags.scene.empty()) airlight::check_take_scene(chosen);
   bool all_hold = true;
   for (const Reproduction* r : chosen)
-    all_hold &= holds(*r, r->name == flags.name ? flags.folder : flags.folder / r->name);
+    all_hold &=
+        holds(*r, r->name == flags.name ? flags.folder : flags.folder / r->name, flags.scene);
   return all_hold ? 0 : out_of_range;
 }
 
@@ -70,5 +74,8 @@ Action set_up_reproduce(CLI::App& verb) {
   verb.footer(examples);
   verb.add_option("name", flags->name, "what to reproduce, such as 000/fig6-single")->type_name("");
   verb.add_option("-o,--output", flags->folder, "the folder that the page goes to")->type_name("");
+  verb.add_option("--scene", flags->scene,
+                  "a scene or model to show instead of its own, where a reproduction can")
+      ->type_name("FILE");
   return [flags] { return flags->name.empty() ? list() : reproduce_all(*flags); };
 }

@@ -18,9 +18,12 @@ Figure Reproduced::picture(const std::string& name, const Image& image,
   return {read_text(path), caption};
 }
 
-std::vector<Row> reproduce(const Reproduction& reproduction, const std::filesystem::path& folder) {
+std::vector<Row> reproduce(const Reproduction& reproduction, const std::filesystem::path& folder,
+                           const std::filesystem::path& scene_file) {
   make_folder(folder);
-  Reproduced out{folder, Page(reproduction.title, reproduction.shows)};
+  Reproduced out{.folder = folder,
+                 .page = Page(reproduction.title, reproduction.shows),
+                 .scene_file = scene_file};
   reproduction.run(out);
   write_text(folder / "result.json", json(out.rows));
   write_text(folder / "index.html", out.page.html(fmt::format("airlight reproduce {}, Airlight {}",

@@ -15,8 +15,10 @@ void fig4(Reproduced& out);
 void fig5(Reproduced& out);
 void fig6_single(Reproduced& out);
 void fig7_single(Reproduced& out);
+void fig9(Reproduced& out);
 void fig11(Reproduced& out);
 void rgb(Reproduced& out);
+void table2(Reproduced& out);
 }  // namespace paper_000
 
 namespace {
@@ -39,12 +41,16 @@ constexpr Reproduction all[] = {
      paper_000::fig6_single},
     {"000/fig7-single", "How fast five estimators of single scattering converge",
      "The scene of 000/fig6-single from 1 to 256 samples a pixel.", paper_000::fig7_single},
+    {"000/fig9", "Ray marching and whole-volume samples in a room",
+     "RM and MCWVDS at 48 spp in a room with windows, and where they err.", paper_000::fig9, true},
     {"000/fig11", "Media with twelve and twenty faces",
      "A dodecahedron and an icosahedron of fog: the closed form against quadrature, and pictures.",
      paper_000::fig11},
     {"000/rgb", "Whole-volume samples in coloured fog",
      "What the ratio form gains over Monte Carlo where the channels are extinguished differently.",
      paper_000::rgb},
+    {"000/table2", "What ray marching and whole-volume samples cost",
+     "Times of RM and MCWVDS at equal samples and at equal error.", paper_000::table2, true},
 };
 
 }  // namespace
@@ -63,6 +69,16 @@ std::vector<const Reproduction*> reproductions_named(std::string_view name) {
     throw Error(fmt::format("{}: is no reproduction; accepted: {}, or what some begin with: 000",
                             name, accepted));
   return found;
+}
+
+void check_take_scene(std::span<const Reproduction* const> chosen) {
+  std::string accepted;
+  for (const Reproduction& r : all)
+    if (r.takes_scene) accepted += fmt::format("{}{}", accepted.empty() ? "" : ", ", r.name);
+  for (const Reproduction* r : chosen)
+    if (!r->takes_scene)
+      throw Error(fmt::format("--scene: {} shows a scene of its own; accepted with it: {}", r->name,
+                              accepted));
 }
 
 }  // namespace airlight

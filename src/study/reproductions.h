@@ -15,4 +15,7 @@ std::span<const Reproduction> reproductions();
 /// Throws Error with the accepted names where there is none.
 std::vector<const Reproduction*> reproductions_named(std::string_view name);
 
+/// Throws Error with the names of those that take a scene of the user's if one of these does not.
+void check_take_scene(std::span<const Reproduction* const> chosen);
+
 }  // namespace airlight

@@ -1,0 +1,48 @@
+#include "study/reproductions/000/views.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene/load_scene.h"
+#include "study/scene_texts.h"
+
+namespace airlight::paper_000 {
+
+View view(std::string name, std::string stem, std::string about, Scene scene, int width) {
+  const Resolution was = scene.resolution;
+  scene.resolution = {width, std::max(1, int(std::lround(double(width) * was.height / was.width)))};
+  for (Lights& light : scene.lights)
+    if (auto* sun = std::get_if<Directional>(&light)) sun->angular_diameter = 0;
+  scene.background_image = {};  // would have to be of the picture's size
+  scene.render.samples_per_ray = 0;
+  scene.render.first_sample.reset();
+  return {std::move(name), std::move(stem), std::move(about), std::move(scene)};
+}
+
+View from_the_dark(int width) {
+  return view("The sunroom as it is", "dark",
+              "`scenes/sunroom.toml`: thin fog, seen from the dark end of the room; the shafts of "
+              "light are far from the camera.",
+              parse_scene(sunroom_toml, "scenes/sunroom.toml"), width);
+}
+
+View in_the_light(int width) {
+  return view("The sunroom in thicker fog, beside the windows", "light",
+              "`scenes/sunroom.toml` with σ_{s} = 0.3 /m, from (6.6, 2.2, 7.6) m towards "
+              "(1.5, 0.8, 3): the camera stands in the light, and what is lit is near.",
+              parse_scene(sunroom_toml, "scenes/sunroom.toml",
+                          {"media.0.sigma_s=0.3", "camera.position=[6.6, 2.2, 7.6]",
+                           "camera.target=[1.5, 0.8, 3]"}),
+              width);
+}
+
+View given_view(const Reproduced& out, int width) {
+  Scene scene = load_scene(out.scene_file);
+  const std::string name = out.scene_file.filename().string();
+  std::string about = fmt::format("`{}`", name);
+  for (const std::string& assumption : scene.assumptions) about += "; " + assumption;
+  return view(name, "scene", about + ".", std::move(scene), width);
+}
+
+}  // namespace airlight::paper_000

@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "study/reproduction.h"
+
+namespace airlight::paper_000 {
+
+/// A scene seen from one place, in the setting of the paper: parallel light, and all samples of a
+/// pixel on the ray through its centre.
+struct View {
+  std::string name;   ///< in words
+  std::string stem;   ///< of its pictures' names
+  std::string about;  ///< where it is and what of it was made up, in sentences
+  Scene scene;
+};
+
+/// The scene in that setting, its picture `width` pixels wide.
+View view(std::string name, std::string stem, std::string about, Scene scene, int width);
+
+/// The sunroom as it is: most of what the camera sees is lit far from it, in thin fog.
+View from_the_dark(int width);
+
+/// The sunroom beside its windows, in fog twice as thick: what is lit is near.
+View in_the_light(int width);
+
+/// The scene that the user gave.
+View given_view(const Reproduced& out, int width);
+
+}  // namespace airlight::paper_000

@@ -1,0 +1,10 @@
+#pragma once
+#include <string>
+
+namespace airlight {
+
+/// Scene files of scenes/ that reproductions show, as text in the library: so that they are found
+/// wherever it runs.
+extern const std::string sunroom_toml;
+
+}  // namespace airlight
