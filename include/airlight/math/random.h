@@ -67,11 +67,13 @@ class Stream {
 
   /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
   /// each interval of length 2^-k.
-  AIRLIGHT_INLINE F one(std::uint32_t index) const noexcept { return one_each(UInt<F>(index)); }
-  /// Of another index in each lane.
-  AIRLIGHT_INLINE F one_each(UInt<F> index) const noexcept {
+  AIRLIGHT_INLINE F one(std::uint32_t index) const noexcept {
     // reverse(index) is the van der Corput point; its scramble reverses it once more.
-    return scramble(index, one_);
+    return scramble(UInt<F>(index), one_);
+  }
+  /// Of another index in each lane, shuffled so that streams do not move together.
+  AIRLIGHT_INLINE F one_each(UInt<F> index) const noexcept {
+    return scramble(owen_scramble(index, shuffle_), one_);
   }
 
   /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
@@ -111,8 +113,8 @@ struct Sampler {
 
 /// The points of a packet of paths at one vertex of each. A lane knows its pixel, the number of its
 /// path and how far along it is, so a point is named by its stream alone: the index that an
-/// estimator asks for, always 0 of one sample, does not count. At the first vertex the points are
-/// the pixel's own.
+/// estimator asks for, always 0 of one sample, does not count. All streams are shuffled: what moves
+/// together at two vertices of a pixel's paths would never average out.
 template <Real F>
 struct PathSampler {
   UInt<F> pixel_hash;  ///< of (seed, pixel)
