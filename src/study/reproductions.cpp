@@ -15,6 +15,7 @@ void fig4(Reproduced& out);
 void fig5(Reproduced& out);
 void fig6_single(Reproduced& out);
 void fig7_single(Reproduced& out);
+void fig8(Reproduced& out);
 void fig9(Reproduced& out);
 void fig11(Reproduced& out);
 void rgb(Reproduced& out);
@@ -41,6 +42,8 @@ constexpr Reproduction all[] = {
      paper_000::fig6_single},
     {"000/fig7-single", "How fast five estimators of single scattering converge",
      "The scene of 000/fig6-single from 1 to 256 samples a pixel.", paper_000::fig7_single},
+    {"000/fig8", "A wall that breaks, at four samples a pixel",
+     "RM and MCWVDS at 4 spp in dust, seen from where the light comes.", paper_000::fig8},
     {"000/fig9", "Ray marching and whole-volume samples in a room",
      "RM and MCWVDS at 48 spp in a room with windows, and where they err.", paper_000::fig9, true},
     {"000/fig11", "Media with twelve and twenty faces",

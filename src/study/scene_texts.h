@@ -6,5 +6,6 @@ namespace airlight {
 /// Scene files of scenes/ that reproductions show, as text in the library: so that they are found
 /// wherever it runs.
 extern const std::string sunroom_toml;
+extern const std::string destruction_toml;
 
 }  // namespace airlight

@@ -22,7 +22,7 @@ View view(std::string name, std::string stem, std::string about, Scene scene, in
 /// The sunroom as it is: most of what the camera sees is lit far from it, in thin fog.
 View from_the_dark(int width);
 
-/// The sunroom beside its windows, in fog twice as thick: what is lit is near.
+/// The sunroom beside its windows, in thicker fog: what is lit is near.
 View in_the_light(int width);
 
 /// The scene that the user gave.
