@@ -286,6 +286,22 @@ TEST(SceneFile, reads_models_and_pictures_once) {
   EXPECT_EQ(std::get<Mesh>(scene.objects.at(0).geometry).positions.at(1).x, 2);
 }
 
+TEST(SceneFile, finds_files_beside_it_from_a_relative_path) {
+  const Folder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::create_directory(folder / "scenes");
+  write_bytes(folder / "scenes/body.obj",
+              "v -1 -1 -1\nv 1 -1 -1\nv 0 1 -1\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  write_bytes(folder / "scenes/film.toml",
+              "[[objects]]\ntype = \"mesh\"\nfile = \"body.obj\"\n[[media]]\nalbedo = 1\n"
+              "sigma_t = 1\nshape = {type = \"mesh\", file = \"body.obj\"}\n");
+  std::filesystem::current_path(folder / "");
+  EXPECT_NO_THROW(load_scene("scenes/film.toml"));
+  const SceneFile file("scenes/film.toml");
+  EXPECT_EQ(file.scene(1).objects.size(), 1u);
+  std::filesystem::current_path(before);
+}
+
 TEST(SceneFile, takes_the_plate_of_each_frame) {
   const Folder folder;
   write_bytes(folder / "film.toml",

@@ -30,7 +30,7 @@ Shapes shape_of(const Unbounded& unbounded, const Cursor&, const Files&) { retur
 Shapes shape_of(const SolidDocument& document, const Cursor& at, const Files& files) {
   const auto load = [&] {
     try {
-      return files.model(files.folder / *document.file);
+      return files.model(*document.file);
     } catch (const Error& error) {
       at.at_or_here("file").complain(std::string("names a model that is not to be had: ") +
                                      error.what());
