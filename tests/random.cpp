@@ -210,6 +210,37 @@ TEST(Two, has_a_point_in_each_elementary_interval_of_every_aligned_block) {
   }
 }
 
+TEST(Halves, of_every_aligned_block_are_stratified) {
+  for (const uint32_t stream : {0u, 1u, 8u, 11u}) {
+    const Sampler<double> s = sampler(5, 3, 1000 * stream);
+    for (int k = 1; k <= 10; ++k) {
+      const uint32_t n = 1u << k;
+      for (const uint32_t start : {0u, 5 * n, 0x7ffff000u}) {
+        for (int half = 0; half < 2; ++half) {
+          std::vector<double> line;
+          std::vector<Vec2<double>> square;
+          for (uint32_t i = start; i < start + n; ++i) {
+            if (half_of(i) != half) continue;
+            line.push_back(s.one(i, stream)), square.push_back(s.two(i, stream));
+          }
+          ASSERT_EQ(line.size(), n / 2);
+          std::vector<int> hits(n / 2);
+          for (const double x : line) ++hits[std::size_t(x * n / 2)];
+          ASSERT_EQ(hits, std::vector<int>(n / 2, 1)) << n << " from " << start;
+          for (int a = 0; a <= k - 2; ++a) {  // elementary intervals with two points each
+            const uint32_t columns = 1u << a, rows = 1u << (k - 2 - a);
+            std::vector<int> pairs(n / 4);
+            for (const auto [x, y] : square)
+              ++pairs[std::size_t(x * columns) * rows + std::size_t(y * rows)];
+            ASSERT_EQ(pairs, std::vector<int>(n / 4, 2))
+                << n << " from " << start << " in " << columns << " x " << rows;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Two, is_uniform_in_the_square_over_pixels) {
   for (const uint32_t index : {0u, 1u, 6u, 77u})
     for (const uint32_t stream : {0u, 1u, 8u})

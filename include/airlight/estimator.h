@@ -71,16 +71,8 @@ inline constexpr std::uint32_t light = 5;
 inline constexpr std::uint32_t light_choice = 6;  ///< where a sample asks one light only
 constexpr std::uint32_t distance(int light) noexcept { return 8u + 4u * std::uint32_t(light); }
 constexpr std::uint32_t disc(int light) noexcept { return 9u + 4u * std::uint32_t(light); }
-constexpr std::uint32_t surface(int light) noexcept { return 10u + 4u * std::uint32_t(light); }
+constexpr std::uint32_t surface(int light) noexcept { return 11u + 4u * std::uint32_t(light); }
 }  // namespace stream
-
-/// Which half of the samples one belongs to, by the parity of its bits: of every aligned block of a
-/// power of two, each half is as well stratified as a block of half the size. The two halves tell
-/// the error of the whole.
-constexpr int half_of(std::uint32_t index) noexcept {
-  index ^= index >> 16, index ^= index >> 8, index ^= index >> 4;
-  return int((0x6996u >> (index & 15u)) & 1u);
-}
 
 /// The sums of a pixel in two halves, each sample counting once: divided by their number they are
 /// the pixel's `Estimate`.

@@ -55,12 +55,25 @@ constexpr U reversed_sobol_second(U index) noexcept {
   return index ^ ((index >> 16) & U(0x0000ffffu));
 }
 
+/// Whether an odd number of bits is set: 0 or 1.
+template <class U>
+constexpr U parity(U x) noexcept {
+  x = x ^ (x >> 16), x = x ^ (x >> 8), x = x ^ (x >> 4), x = x ^ (x >> 2);
+  return (x ^ (x >> 1)) & U(1u);
+}
+
+/// Which half of the samples one belongs to, by the parity of its bits: of every aligned block of
+/// 2^k, each half is as well stratified as a block of 2^(k-1) in one dimension, and as one of
+/// 2^(k-2) in two. The two halves tell the error of the whole.
+constexpr int half_of(std::uint32_t index) noexcept { return int(parity(index)); }
+
 /// One of the sequences of a packet of pixels: what its seeds cost is paid once.
 template <Real F>
 class Stream {
  public:
-  explicit Stream(UInt<F> hash) noexcept
-      : shuffle_(hash),
+  Stream(UInt<F> hash, std::uint32_t id) noexcept
+      : half_(id % 2 == 0 ? 0x6db6db6du : 0xdb6db6dbu),
+        shuffle_(hash),
         one_(mix_bits(hash)),
         first_(mix_bits(hash ^ UInt<F>(0x9e3779b9u))),
         second_(mix_bits(hash ^ UInt<F>(0x7f4a7c15u))) {}
@@ -81,7 +94,8 @@ class Stream {
     return two_each(UInt<F>(index));
   }
   AIRLIGHT_INLINE Vec2<F> two_each(UInt<F> index) const noexcept {
-    const UInt<F> shuffled = owen_scramble(index, shuffle_);
+    UInt<F> shuffled = owen_scramble(index, shuffle_);
+    shuffled = shuffled ^ parity((shuffled & UInt<F>(half_)) ^ index);
     return {scramble(shuffled, first_), scramble(reversed_sobol_second(shuffled), second_)};
   }
 
@@ -90,6 +104,12 @@ class Stream {
     return unit_interval<F>(reverse_bits(laine_karras(reversed, seed)));
   }
 
+  /// The shuffle keeps to the halves: its last bit is such that the parity of these bits is that of
+  /// the index. Parity of all bits would be the second dimension's first. Of the others those that
+  /// leave out every third bit, and they alone, cut all blocks of 2^k into two (1, k-1, 2)-nets
+  /// (found by trying all periods up to 8, k up to 16). Of the two that keep the last bit, even
+  /// streams take one and odd ones the other: the first bits of their points are independent.
+  std::uint32_t half_;
   UInt<F> shuffle_, one_, first_, second_;
 };
 
@@ -102,7 +122,7 @@ struct Sampler {
   /// The streams' hashes are mixed again before they scramble: the low bits, which decide the
   /// stratum, of one mix of h ^ a and of h ^ b are not independent over h.
   Stream<F> stream(std::uint32_t id) const noexcept {
-    return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))));
+    return Stream<F>(mix_bits(pixel_hash ^ UInt<F>(mix_bits(id))), id);
   }
 
   F one(std::uint32_t index, std::uint32_t id) const noexcept { return stream(id).one(index); }
@@ -131,7 +151,7 @@ struct PathSampler {
 
   Points stream(std::uint32_t id) const noexcept {
     const UInt<F> here = UInt<F>(id) + vertex * UInt<F>(0x9e3779b9u);
-    return {Stream<F>(mix_bits(pixel_hash ^ mix_bits(here))), index};
+    return {Stream<F>(mix_bits(pixel_hash ^ mix_bits(here)), id), index};
   }
 
   F one(std::uint32_t, std::uint32_t id) const noexcept { return stream(id).one(0); }
