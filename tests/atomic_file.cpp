@@ -117,11 +117,11 @@ TEST(AtomicFile, says_why_a_target_will_not_do) {
   const ScratchFolder folder;
   const std::string name = folder.path().string();
   EXPECT_EQ(error_of([&] { check_writable(folder / "no/a.txt"); }),
-            name + "/no/a.txt: cannot be written: No such file or directory");
+            name + "/no/a.txt: cannot be written: there is no folder " + name + "/no");
   EXPECT_EQ(error_of([&] { check_writable(folder.path()); }),
-            name + ": cannot be written: Is a directory");
+            name + ": cannot be written: it is a folder");
   EXPECT_EQ(error_of([&] { check_writable(name + "/"); }),
-            name + "/: cannot be written: Is a directory");
+            name + "/: cannot be written: it is a folder");
   EXPECT_EQ(error_of([&] { check_writable(""); }),
             ": cannot be written: No such file or directory");
   write_text(folder / "file", "");

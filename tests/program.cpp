@@ -189,8 +189,9 @@ TEST(Program, refuses_outputs_before_it_renders) {
   // Endless renders: these tests end only because they never begin.
   expect_one_line(desk.render("out.jpg", endless), 2, "accepted: .exr, .pfm, .png");
   expect_one_line(desk.render("out", endless), 2, "accepted: .exr, .pfm, .png");
-  expect_one_line(desk.render("missing/out.png", endless), 2, "missing/out.png");
-  expect_one_line(desk.render("folder.png", endless), 2, "folder.png");
+  expect_one_line(desk.render("missing/out.png", endless), 2, "there is no folder ");
+  expect_one_line(desk.render("folder.png", endless), 2, "folder.png: cannot be written: it is a");
+  expect_one_line(desk.render(".", endless), 2, "is a folder; accepted: a file in it, such as ");
   expect_one_line(desk.render("good.png", with(endless, {"-o", desk / "bad.gif"})), 2, "bad.gif");
   EXPECT_THAT(desk.folder.names(), ElementsAre("folder.png", "scene.toml"));
 }

@@ -1,5 +1,7 @@
 #include "embree_surfaces.h"
 
+#include <fmt/format.h>
+
 #include "error.h"
 #include "scene/scene.h"
 
@@ -64,8 +66,15 @@ EmbreeSurfaces::EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter
   for (std::uint32_t id = 0; id < scene.objects.size(); ++id)
     if (!surfaces[id].is_clear()) attach(id, surfaces[id]);
   rtcCommitScene(embree_.get());
-  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
-    throw Error("the scene's surfaces are too many for this machine's memory");
+  switch (const RTCError error = rtcGetDeviceError(device_.get())) {
+    case RTC_ERROR_NONE:
+      break;
+    case RTC_ERROR_OUT_OF_MEMORY:
+      throw Error("the scene's surfaces are too many for this machine's memory");
+    default:
+      throw Error(
+          fmt::format("Embree does not take the scene's surfaces (its error {})", int(error)));
+  }
 }
 
 void EmbreeSurfaces::attach(std::uint32_t id, const SurfaceFilter& surface) {

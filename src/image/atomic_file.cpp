@@ -18,6 +18,13 @@ namespace {
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
 Error unwritable(const std::filesystem::path& path, int error) {
+  const std::filesystem::path folder = path.parent_path();
+  std::error_code ignored;
+  if (error == ENOENT && !folder.empty() && !std::filesystem::exists(folder, ignored))
+    return Error(fmt::format("{}: cannot be written: there is no folder {}", path.string(),
+                             folder.string()));
+  if (error == EISDIR)
+    return Error(fmt::format("{}: cannot be written: it is a folder", path.string()));
   return Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
 }
 

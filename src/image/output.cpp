@@ -33,6 +33,10 @@ const Format& format_of(const std::filesystem::path& path) {
                          [](unsigned char c) { return std::tolower(c); });
   const auto found = std::ranges::find(formats, extension, &Format::extension);
   if (found != formats.end()) return *found;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(fmt::format("{}: is a folder; accepted: a file in it, such as {}", path.string(),
+                            (path / "picture.png").string()));
   std::vector<std::string> accepted;
   for (const Format& format : formats) accepted.push_back(format.extension);
   throw Error(fmt::format("{}: unknown picture format \"{}\"; accepted: {}", path.string(),
