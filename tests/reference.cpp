@@ -73,6 +73,7 @@ TEST(Reference, tells_shared_keys_once) {
   for (const MemberEntry& object : chapter(chapters, "Objects").members)
     for (const ParameterEntry& parameter : object.parameters)
       EXPECT_NE(parameter.key, "translate") << object.name;
+  EXPECT_EQ(chapter(chapters, "Keys of lights").members.at(0).parameters.at(0).key, "group");
   EXPECT_EQ(chapter(chapters, "Keys of objects").members.at(0).parameters.at(3).key, "translate");
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "error.h"
+#include "render/film.h"
 #include "scene/load_scene.h"
 #include "scene/reader.h"
 #include "support/program.h"
@@ -267,6 +268,29 @@ TEST(SceneReader, refuses_a_camera_that_looks_nowhere) {
   EXPECT_THAT(error_of("[camera]\nup = [0, 0, 0]\n"), HasSubstr("camera.up = [0, 0, 0] is no"));
 }
 
+TEST(SceneReader, puts_lights_into_groups) {
+  const Scene scene = parse_scene(sun + "group = \"sun\"\n" + sun + sun + "group = \"Lamp_2-b\"",
+                                  "fog.toml", {"lights.1.group=sun"});
+  EXPECT_EQ(scene.light_groups, (std::vector<std::string>{"sun", "sun", "Lamp_2-b"}));
+  EXPECT_EQ(parse_scene(sun, "fog.toml").light_groups, std::vector<std::string>{""});
+}
+
+TEST(SceneReader, refuses_groups_that_cannot_be_layers) {
+  EXPECT_EQ(error_of(sun + "group = \"key.light\"\n"),
+            "fog.toml:5:9: lights.0.group = \"key.light\" is no name of a group: up to 64 letters, "
+            "digits, _ and -");
+  for (const std::string& name : {std::string(), std::string("größer"), std::string(65, 'a')})
+    EXPECT_THAT(error_of(sun + "group = \"" + name + "\"\n"), HasSubstr("is no name of a group"));
+  EXPECT_THAT(error_of(sun + "group = 3\n"), HasSubstr("lights.0.group = 3 is not a text"));
+  std::vector<std::string> layers = {"ungrouped"};
+  for (const Layer& layer : Film({1, 1}, {0, 0, 1, 1}).picture().layers)
+    layers.push_back(layer.name);
+  EXPECT_GT(layers.size(), 10u);
+  for (const std::string& layer : layers)
+    EXPECT_THAT(error_of(sun + "group = \"" + layer + "\"\n"),
+                HasSubstr("is a layer that every picture has; accepted: all names but albedo, "));
+}
+
 TEST(SceneReader, refuses_light_without_one_direction) {
   const std::string light = "[[lights]]\ntype = \"directional\"\nirradiance = 1\n";
   EXPECT_EQ(error_of(light + "direction = [0, 0.0, 0]\n"),
@@ -432,7 +456,7 @@ TEST(Overrides, are_named_in_errors) {
             "medium)");
   EXPECT_EQ(error_of(sun, {"lights.0.iradiance=3"}),
             "-D lights.0.iradiance=3: lights.0.iradiance is not known here; accepted: "
-            "angular_diameter, azimuth, direction, elevation, irradiance, type");
+            "angular_diameter, azimuth, direction, elevation, group, irradiance, type");
   EXPECT_EQ(error_of(sun, {"lights.1.irradiance=3"}),
             "-D lights.1.irradiance=3: lights.1 is not there; lights is a list of 1, counted from "
             "0");

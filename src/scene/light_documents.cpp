@@ -1,10 +1,38 @@
 #include "scene/light_documents.h"
 
+#include <algorithm>
+#include <cctype>
+
+#include "scene/accepted.h"
 #include "scene/direction.h"
 #include "scene/named_texture.h"
 #include "scene/ways.h"
 
 namespace airlight {
+namespace {
+
+/// Layers that a picture has anyway.
+const std::vector<std::string> taken = {"albedo",        "alpha",      "analytic",       "beauty",
+                                        "depth",         "in_scatter", "normal",         "object",
+                                        "occluded",      "plain",      "standard_error", "surface",
+                                        "transmittance", "ungrouped",  "unoccluded"};
+
+constexpr std::size_t longest_group = 64;  // an EXR file has room for 255 with channel and layer
+
+}  // namespace
+
+std::string GroupedLight::light_group(const Cursor& at) const {
+  if (!group) return "";
+  const auto fits = [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-');
+  };
+  if (group->empty() || group->size() > longest_group || !std::ranges::all_of(*group, fits))
+    at.at_or_here("group").refuse("is no name of a group: up to 64 letters, digits, _ and -");
+  if (std::ranges::find(taken, *group) != taken.end())
+    at.at_or_here("group").refuse("is a layer that every picture has; accepted: all names but " +
+                                  accepted_words(taken));
+  return *group;
+}
 
 Directional DirectionalDocument::light(const Cursor& at) const {
   Directional light;

@@ -2,6 +2,7 @@
 #include <airlight/lights.h>
 
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "scene/cross_section_documents.h"
@@ -11,8 +12,24 @@
 
 namespace airlight {
 
+/// What every kind of light can say: the group it belongs to.
+struct GroupedLight {
+  std::optional<std::string> group;
+
+  template <class Visitor>
+  static constexpr void describe(Visitor&& field) {
+    field(
+        "group", &GroupedLight::group, unit::none, any_number(),
+        "lights of one group share a layer of the picture, which can be dimmed or coloured later; "
+        "letters, digits, _ and -");
+  }
+
+  /// The group's name, empty without one. Throws Error unless it can be the name of a layer.
+  std::string light_group(const Cursor& at) const;
+};
+
 /// A directional light as a file says it: its direction of travel, or where in the sky it stands.
-struct DirectionalDocument {
+struct DirectionalDocument : GroupedLight {
   Required<Rgb<double>> irradiance;
   std::optional<Vec3<double>> direction;
   std::optional<double> azimuth;
@@ -35,6 +52,7 @@ struct DirectionalDocument {
           "where the light comes from, above the horizon; 90 is straight down (up is +y)");
     field("angular_diameter", &D::angular_diameter, unit::degree, Range{0, 90, false, true},
           "of the light's disc; the sun's is 0.53; 0 is parallel light");
+    GroupedLight::describe(field);
   }
 
   /// Throws Error unless the direction is given in exactly one way.
@@ -42,7 +60,7 @@ struct DirectionalDocument {
 };
 
 /// A beam as a file says it.
-struct CollimatedDocument {
+struct CollimatedDocument : GroupedLight {
   Required<Rgb<double>> irradiance;
   Required<Vec3<double>> position;
   std::optional<Vec3<double>> direction;
@@ -72,6 +90,7 @@ struct CollimatedDocument {
     field("image", &D::image, unit::none, any_number(),
           "picture that filters the beam, stretched over the rectangle around the cross-section: "
           "black blocks, white passes, colours tint; its path starts at the scene file");
+    GroupedLight::describe(field);
   }
 
   /// Throws Error unless the direction is given in exactly one way; for an image that cannot be

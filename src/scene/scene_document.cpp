@@ -85,6 +85,7 @@ Scene scene_of(const Value& value, const Files& files) {
             scene.lights.push_back(light.light(here, files, scene.textures));
           else
             scene.lights.push_back(light.light(here));
+          scene.light_groups.push_back(light.light_group(here));
         },
         document.lights[i]);
   for (std::size_t i = 0; i < document.objects.size(); ++i)
