@@ -39,14 +39,30 @@ std::filesystem::path follow_links(std::filesystem::path path) {
   return path;
 }
 
-/// Creates a file of a new name; `path` becomes that name.
-int create_beside(const std::filesystem::path& target, std::filesystem::path& path, mode_t mode) {
+/// Tries create(path) with new names beside the target until one is free; `path` becomes that name.
+template <class Create>
+int create_beside(const std::filesystem::path& target, std::filesystem::path& path,
+                  Create&& create) {
   static std::atomic<unsigned> counter = 0;
   while (true) {
     path = target.parent_path() / fmt::format(".airlight-{}-{}.tmp", ::getpid(), counter++);
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (file >= 0 || errno != EEXIST) return file;
+    const int result = create(path);
+    if (result >= 0 || errno != EEXIST) return result;
   }
+}
+
+/// A file that has no name yet and goes away by itself if the program is killed; −1 where the file
+/// system has no such thing.
+int create_unnamed(const std::filesystem::path& target) {
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;  // it would get no name later
+  const auto folder = target.has_parent_path() ? target.parent_path() : ".";
+  return ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+}
+
+/// Gives it its name.
+int link_unnamed(int file, const std::filesystem::path& path) {
+  return ::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", file).c_str(), AT_FDCWD, path.c_str(),
+                  AT_SYMLINK_FOLLOW);
 }
 
 }  // namespace
@@ -64,7 +80,12 @@ AtomicFile::AtomicFile(std::filesystem::path target)
   } else if (exists && ::access(final_.c_str(), W_OK) != 0) {
     throw unwritable(target_, errno);  // a rename could replace it, but its owner closed it
   } else {
-    file_ = create_beside(final_, temporary_, 0666);
+    file_ = create_unnamed(final_);
+    unnamed_ = file_ >= 0;
+    if (!unnamed_)
+      file_ = create_beside(final_, temporary_, [](const std::filesystem::path& path) {
+        return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      });
     if (file_ < 0) temporary_.clear();
     if (file_ >= 0 && exists) ::fchmod(file_, status.st_mode & 07777);
   }
@@ -99,7 +120,13 @@ void AtomicFile::seek(std::uint64_t position) {
 
 void AtomicFile::commit() {
   flush();
-  if (!temporary_.empty() && ::fsync(file_) != 0) fail(errno);
+  if ((unnamed_ || !temporary_.empty()) && ::fsync(file_) != 0) fail(errno);
+  if (unnamed_) {
+    const int linked = create_beside(final_, temporary_, [this](const std::filesystem::path& path) {
+      return link_unnamed(file_, path);
+    });
+    if (linked < 0) temporary_.clear(), fail(errno);
+  }
   const int file = std::exchange(file_, -1);
   if (::close(file) != 0) fail(errno);
   if (temporary_.empty()) return;

@@ -11,9 +11,10 @@ namespace airlight {
 
 /// A file that appears whole or not at all. Bytes go to a temporary file beside the target, which
 /// `commit` renames over it; without a commit the temporary file is removed and an old target stays
-/// as it was. Symbolic links are followed. A target that is no regular file (/dev/stdout, a pipe)
-/// is written directly. Every failure is an Error that names the target: "out.png: cannot be
-/// written: No space left on device".
+/// as it was. Where the file system can, the temporary file has no name: a program that is killed
+/// leaves nothing behind. Symbolic links are followed. A target that is no regular file
+/// (/dev/stdout, a pipe) is written directly. Every failure is an Error that names the target:
+/// "out.png: cannot be written: No space left on device".
 class AtomicFile {
  public:
   /// Throws if the directory is missing or closed to us, or the target is a directory or read-only.
@@ -40,7 +41,8 @@ class AtomicFile {
 
   std::filesystem::path target_;     // as the user wrote it, for errors
   std::filesystem::path final_;      // links followed
-  std::filesystem::path temporary_;  // empty: the target is written directly, or all is done
+  std::filesystem::path temporary_;  // empty: there is no such name
+  bool unnamed_ = false;             // the file has no name yet
   int file_ = -1;
   int error_ = 0;              // errno of the first failure
   std::uint64_t flushed_ = 0;  // where in the file the buffer starts
