@@ -12,6 +12,7 @@ set(public_headers
   image/image.h
   image/input.h
   image/metrics.h
+  image/mix.h
   image/output.h
   image/picture.h
   image/srgb.h

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "image/picture.h"
 
 namespace airlight {
 
@@ -38,6 +38,8 @@ Image decode_hdr(const Encoded& encoded);  ///< Radiance
 Image decode_exr_channel(const Encoded& encoded, const std::string& channel);
 Image decode_pfm_numbers(const Encoded& encoded);
 Image decode_png_numbers(const Encoded& encoded);
+
+Picture exr_picture(const Encoded& encoded);
 
 std::map<std::string, std::string> exr_metadata(const Encoded& encoded);
 std::map<std::string, std::string> png_metadata(const Encoded& encoded);

@@ -55,6 +55,14 @@ Numbers read_numbers(const std::filesystem::path& path, const std::string& chann
   fail_to_decode(encoded, "it is no picture of numbers; accepted: EXR, PFM and PNG of one channel");
 }
 
+Picture read_picture(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const std::string name = path.string();
+  const Encoded encoded{bytes, name};
+  if (!is_exr(encoded)) fail_to_decode(encoded, "only EXR files have layers");
+  return exr_picture(encoded);
+}
+
 std::map<std::string, std::string> read_metadata(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string name = path.string();

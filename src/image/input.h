@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "image/image.h"
+#include "image/picture.h"
 
 namespace airlight {
 
@@ -32,6 +32,10 @@ struct Numbers {
 /// an EXR file by its whole name ("depth.Z"); "" stands for its only one, or Z, or depth.Z. Throws
 /// Error if the file cannot be read or has more than one number a pixel.
 Numbers read_numbers(const std::filesystem::path& path, const std::string& channel = "");
+
+/// An EXR file with all its layers, which keep their pixels, as something to write again. Throws
+/// Error if it cannot be read or is no EXR file.
+Picture read_picture(const std::filesystem::path& path);
 
 /// The metadata of an EXR or PNG file as text, numbers in their shortest exact form; empty for
 /// other formats.

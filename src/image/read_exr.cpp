@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
@@ -119,6 +120,51 @@ Image read_channels(const Encoded& encoded, Imf::InputFile& file,
   return image;
 }
 
+Storage storage_of(Imf::PixelType type) {
+  return type == Imf::HALF ? Storage::colour : type == Imf::UINT ? Storage::id : Storage::single;
+}
+
+/// Puts "sun.surface.R" into the layer "sun.surface"; channels that make a colour in their order.
+void add_channel(std::vector<Layer>& layers, const std::string& name, Storage storage) {
+  const std::size_t dot = name.rfind('.');
+  const std::string prefix = dot == std::string::npos ? "" : name.substr(0, dot);
+  auto layer = std::ranges::find(layers, prefix, &Layer::name);
+  if (layer == layers.end()) layer = layers.insert(layer, Layer{prefix, {}, {}, storage});
+  layer->channels.push_back(dot == std::string::npos ? name : name.substr(dot + 1));
+  std::ranges::sort(layer->channels, {}, [](const std::string& channel) {
+    return std::pair(std::string_view("RGBA").find(channel), channel);
+  });
+}
+
+/// Reads a layer's pixels, which it then keeps.
+void read_layer(const Encoded& encoded, Imf::InputFile& file, Layer& layer) {
+  std::vector<std::string> names;
+  for (const std::string& channel : layer.channels)
+    names.push_back(layer.name.empty() ? channel : layer.name + "." + channel);
+  const auto image = std::make_shared<const Image>(read_channels(encoded, file, names));
+  layer.fill = [image](int y, std::span<float> row) {
+    std::ranges::copy(image->row(y), row.begin());
+  };
+}
+
+/// visit(key, value) for everything that a file says beyond what every file does.
+template <class Visit>
+void for_each_attribute(const Imf::InputFile& file, Visit&& visit) {
+  const Imf::Header standard;
+  for (auto i = file.header().begin(); i != file.header().end(); ++i) {
+    const std::string key = i.name();
+    if (standard.find(key) != standard.end()) continue;
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+      visit(key, text->value());
+    else if (const auto* real = dynamic_cast<const Imf::DoubleAttribute*>(&i.attribute()))
+      visit(key, real->value());
+    else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&i.attribute()))
+      visit(key, real->value());
+    else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&i.attribute()))
+      visit(key, whole->value());
+  }
+}
+
 }  // namespace
 
 Image decode_exr(const Encoded& encoded, const std::string& layer) {
@@ -133,22 +179,46 @@ Image decode_exr_channel(const Encoded& encoded, const std::string& channel) {
   });
 }
 
+Picture exr_picture(const Encoded& encoded) {
+  return with_file(encoded, [&](Imf::InputFile& file) {
+    const Imf::Header& header = file.header();
+    const Imath::Box2i window = header.dataWindow(), full = header.displayWindow();
+    Picture picture;
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+      add_channel(picture.layers, i.name(), storage_of(i.channel().type));
+    // The beauty has no prefix, and comes first.
+    std::ranges::stable_partition(picture.layers, &std::string::empty, &Layer::name);
+    if (picture.layers.empty()) fail_to_decode(encoded, "it has no channels");
+    Layer& beauty = picture.layers[0];
+    if (std::erase(beauty.channels, "A") > 0) picture.alpha = Layer{"", {"A"}, {}, beauty.storage};
+    if (!beauty.name.empty() || beauty.channels != std::vector<std::string>{"R", "G", "B"})
+      fail_to_decode(encoded, "it has no channels R, G, B");
+    for (Layer& layer : picture.layers) read_layer(encoded, file, layer);
+    if (picture.alpha) read_layer(encoded, file, *picture.alpha), picture.alpha->name = "alpha";
+    beauty.name = "beauty";
+    picture.width = window.max.x - window.min.x + 1;
+    picture.height = window.max.y - window.min.y + 1;
+    if (window != full)
+      picture.crop = Crop{window.min.x - full.min.x, window.min.y - full.min.y,
+                          full.max.x - full.min.x + 1, full.max.y - full.min.y + 1};
+    for_each_attribute(file, [&](const std::string& key, const auto& value) {
+      if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(value)>>)
+        picture.metadata.emplace_back(key, std::int64_t(value));
+      else if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(value)>>)
+        picture.metadata.emplace_back(key, double(value));
+      else
+        picture.metadata.emplace_back(key, value);
+    });
+    return picture;
+  });
+}
+
 std::map<std::string, std::string> exr_metadata(const Encoded& encoded) {
   return with_file(encoded, [](Imf::InputFile& file) {
-    const Imf::Header standard;  // what every file has says nothing
     std::map<std::string, std::string> metadata;
-    for (auto i = file.header().begin(); i != file.header().end(); ++i) {
-      const std::string key = i.name();
-      if (standard.find(key) != standard.end()) continue;
-      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
-        metadata[key] = text->value();
-      else if (const auto* real = dynamic_cast<const Imf::DoubleAttribute*>(&i.attribute()))
-        metadata[key] = fmt::format("{}", real->value());
-      else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&i.attribute()))
-        metadata[key] = fmt::format("{}", real->value());
-      else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&i.attribute()))
-        metadata[key] = fmt::format("{}", whole->value());
-    }
+    for_each_attribute(file, [&](const std::string& key, const auto& value) {
+      metadata[key] = fmt::format("{}", value);
+    });
     return metadata;
   });
 }
