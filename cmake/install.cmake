@@ -22,11 +22,14 @@ set(public_headers
   scene/load_scene.h
   scene/render_settings.h
   scene/scene.h
+  render/checkpoint.h
+  render/checkpoint_plan.h
   render/film.h
   render/film_layout.h
   render/path_count.h
   render/probe.h
   render/render.h
+  render/traits.h
   render/version.h
   render/zeroed_memory.h
 )

@@ -16,7 +16,7 @@ namespace {
 
 using airlight::Error;
 
-constexpr int bad_input = 2, failed = 1;
+constexpr int failed = 1;
 
 constexpr const char* examples = R"(Examples:
   airlight render scenes/sunroom.toml -o sunroom.png

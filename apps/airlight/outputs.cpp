@@ -45,13 +45,23 @@ struct Development {
 
 }  // namespace
 
-void Outputs::declare(CLI::App& verb) {
-  verb.add_option("-o,--output", files_, "the picture: .png, .exr or .pfm; may be repeated")
+void Outputs::declare(CLI::App& verb, const std::string& kinds) {
+  verb.add_option("-o,--output", files_, kinds + "; may be repeated")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->group("Output");
   add_flags<Development>(verb, "", "Output", changes_);
+}
+
+std::vector<std::filesystem::path> Outputs::take(const std::string& extension) {
+  std::vector<std::filesystem::path> taken;
+  std::erase_if(files_, [&](const std::filesystem::path& file) {
+    if (file.extension() != extension) return false;
+    taken.push_back(file);
+    return true;
+  });
+  return taken;
 }
 
 void Outputs::check() {
@@ -99,4 +109,16 @@ std::string Outputs::names() const {
   std::string names;
   for (const auto& file : files_) names += (names.empty() ? "" : ", ") + file.string();
   return names;
+}
+
+void tell_origin(airlight::Picture& picture, const std::string& estimator,
+                 const std::string& samples_per_ray, double seconds,
+                 const std::string& instruction_set, const std::string& version) {
+  const std::pair<std::string, airlight::MetadataValue> told[] = {
+      {"estimator", estimator},
+      {"samples_per_ray", samples_per_ray},
+      {"seconds", seconds},
+      {"isa", instruction_set},
+      {"version", version}};
+  picture.metadata.insert(picture.metadata.end(), std::begin(told), std::end(told));
 }

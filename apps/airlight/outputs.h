@@ -9,7 +9,11 @@
 /// The files a picture goes to and how it is brought there.
 class Outputs {
  public:
-  void declare(CLI::App& verb);
+  /// `kinds` is what -o takes, in words.
+  void declare(CLI::App& verb, const std::string& kinds = "the picture: .png, .exr or .pfm");
+
+  /// Takes the files with an extension such as ".ckpt" out of those that pictures go to.
+  std::vector<std::filesystem::path> take(const std::string& extension);
 
   /// Throws airlight::Error if a file could not be written, a flag has a wrong value, or a name has
   /// a place for the number of a frame.
@@ -33,3 +37,8 @@ class Outputs {
   std::vector<airlight::Override> changes_;
   airlight::OutputOptions options_;
 };
+
+/// Adds to a film's picture how its samples came about.
+void tell_origin(airlight::Picture& picture, const std::string& estimator,
+                 const std::string& samples_per_ray, double seconds,
+                 const std::string& instruction_set, const std::string& version);

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "flags.h"
 #include "frame_range.h"
+#include "image/numbered.h"
 #include "interrupt.h"
 #include "numbers.h"
 #include "outputs.h"
@@ -18,10 +19,11 @@ namespace {
 
 using airlight::Error, airlight::PixelRect, airlight::Rendered, airlight::Scene;
 
-/// When a render shows what it has and when it ends.
+/// When a render shows and keeps what it has, and when it ends.
 struct Schedule {
   double preview = 0;
   double time_limit = 0;
+  double checkpoint_every = 60;
 
   template <class Visitor>
   static constexpr void describe(Visitor&& field) {
@@ -29,6 +31,9 @@ struct Schedule {
           "writes the output again every so often while rendering; without a number every 2 s");
     field("time_limit", &Schedule::time_limit, airlight::unit::second, airlight::above(0),
           "stops after this time and writes what is done");
+    field("checkpoint_every", &Schedule::checkpoint_every, airlight::unit::second,
+          airlight::closed(0.01, 1e6),
+          "how often the checkpoint is written; without it every 60 s");
   }
 };
 
@@ -40,6 +45,8 @@ struct Flags {
   bool alpha = false;
   std::string frames;
   bool skip_existing = false;
+  std::filesystem::path checkpoint;
+  bool resume = false;
   bool quiet = false;
 };
 
@@ -51,9 +58,11 @@ constexpr const char* examples = R"(Examples:
   airlight render fog.toml -o layer.exr -o layer.png --alpha
   airlight render fog.toml -o fog.exr --spp 1024 --preview 2 --time-limit 60
   airlight render scenes/destruction.toml --frames 0..47 -o wall.####.png --skip-existing
+  airlight render fog.toml -o fog.exr --spp 65536 --checkpoint fog.ckpt --resume
 
 Ctrl-C ends a render and writes what is done (exit status 130); a second Ctrl-C ends it at once. Of a run of frames
-only whole ones are written; with --skip-existing the same command goes on where a run ended.
+only whole ones are written; with --skip-existing the same command goes on where a run ended. With --checkpoint and
+--resume the same command goes on in the middle of a picture, whatever ended it.
 )";
 
 std::optional<PixelRect> crop_of(const std::string& text) {
@@ -66,35 +75,42 @@ std::optional<PixelRect> crop_of(const std::string& text) {
   return PixelRect{int(n[0]), int(n[1]), int(n[2]), int(n[3])};
 }
 
+/// Throws Error for flags that mean nothing without a checkpoint.
+void check_no_checkpoint(const Flags& flags) {
+  for (const airlight::Override& flag : flags.schedule)
+    if (flag.path == "checkpoint_every")
+      throw Error(flag.said + ": of which file? accepted: together with --checkpoint FILE");
+  if (flags.resume) throw Error("--resume: which file? accepted: together with --checkpoint FILE");
+}
+
 /// What holds for every picture of a run.
 struct Manner {
   Schedule schedule;
   std::optional<PixelRect> crop;
+  std::filesystem::path checkpoint;
+  bool resume;
   bool alpha;
   bool quiet;
 
   explicit Manner(const Flags& flags)
       : schedule(read_flags<Schedule>(flags.schedule)),
         crop(crop_of(flags.crop)),
+        checkpoint(flags.checkpoint),
+        resume(flags.resume),
         alpha(flags.alpha),
-        quiet(flags.quiet) {}
+        quiet(flags.quiet) {
+    if (checkpoint.empty()) check_no_checkpoint(flags);
+  }
 };
 
 /// The film with how it came about.
 airlight::Picture picture_of(const airlight::Film& film, const airlight::RenderSettings& settings,
-                             bool alpha, const char* instruction_set, std::int64_t samples,
-                             double seconds) {
+                             bool alpha, const char* instruction_set, double seconds) {
   airlight::Picture picture = film.picture();
   if (alpha) add_alpha(picture);
-  picture.metadata = {{"spp", samples},
-                      {"samples_per_ray", settings.samples_per_ray},
-                      {"first_sample", settings.first_sample.value_or(0)},
-                      {"seed", settings.seed},
-                      {"frame", settings.frame},
-                      {"estimator", settings.estimator},
-                      {"seconds", seconds},
-                      {"isa", std::string(instruction_set)},
-                      {"version", std::string(airlight::version())}};
+  tell_origin(picture, settings.estimator, fmt::format("{}", settings.samples_per_ray), seconds,
+              instruction_set, airlight::version());
+  picture.metadata.emplace_back("frame", settings.frame);
   return picture;
 }
 
@@ -125,6 +141,14 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
     if (Interrupt::received()) stop.request_stop();
     line.show(progress);
   };
+  if (!manner.checkpoint.empty())
+    control.checkpoint = {.file = manner.checkpoint,
+                          .every = manner.schedule.checkpoint_every,
+                          .resume = manner.resume,
+                          .on_failure = [&](const Error& error) {
+                            line.clear();
+                            fmt::print(stderr, "{}\n", error.what());
+                          }};
   const char* const instruction_set = renderer.instruction_set(scene.render);
   if (manner.schedule.preview > 0) {
     control.short_passes = true;
@@ -132,8 +156,8 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
                                      const airlight::Progress& progress) mutable {
       if (progress.seconds < next || progress.samples_done == progress.samples) return;
       try {
-        outputs.write(picture_of(film, scene.render, manner.alpha, instruction_set,
-                                 progress.samples_done, progress.seconds));
+        outputs.write(
+            picture_of(film, scene.render, manner.alpha, instruction_set, progress.seconds));
       } catch (const Error& error) {  // the render goes on: its last picture may succeed
         line.clear();
         fmt::print(stderr, "{}\n", error.what());
@@ -146,8 +170,8 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
   line.clear();
   const bool interrupted = !done.complete && Interrupt::received();
   if (interrupted && !turn.name.empty()) return 128 + Interrupt::received();
-  outputs.write(picture_of(done.film, scene.render, manner.alpha, done.instruction_set,
-                           done.samples, done.seconds));
+  outputs.write(
+      picture_of(done.film, scene.render, manner.alpha, done.instruction_set, done.seconds));
   if (done.rejected > 0)
     fmt::print(stderr, "warning: {} sums of pixels were not finite and were left out\n",
                done.rejected);
@@ -159,13 +183,19 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
     fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", outputs.names(), done.film.crop.width,
                done.film.crop.height, done.samples, of, done.seconds, done.instruction_set);
   }
+  if (!done.kept) return bad_input;
   return interrupted ? 128 + Interrupt::received() : 0;
 }
 
 /// Renders the frames that are wanted, one after the other.
 int render_frames(const Flags& flags) {
   const FrameRange range = frame_range(flags.frames);
-  const Manner manner(flags);
+  Manner manner(flags);
+  if (!flags.checkpoint.empty() && !airlight::is_pattern(flags.checkpoint))
+    throw Error(
+        flags.checkpoint.string() +
+        ": has no place for the number of a frame, which --frames wants; accepted is a name "
+        "such as out.####.ckpt");
   if (manner.schedule.preview > 0)
     throw Error("--preview does not go with --frames: a frame that is not whole would look done");
   const airlight::SceneFile file = flags.scene.open();
@@ -183,6 +213,7 @@ int render_frames(const Flags& flags) {
     const Scene scene = flags.scene.load(file, wanted[i]);
     Outputs outputs = flags.outputs.of_frame(wanted[i]);
     outputs.check();
+    manner.checkpoint = airlight::numbered(flags.checkpoint, wanted[i]);
     const std::string name = fmt::format("frame {}, {} of {}", wanted[i], i + 1, wanted.size());
     const int status = render_picture(scene, outputs, manner, {name, i == 0});
     if (status != 0) return status;
@@ -226,6 +257,16 @@ Action set_up_render(CLI::App& verb) {
   verb.add_flag("--alpha", flags->alpha,
                 "leaves the background out and writes alpha: EXR with colours multiplied by it, "
                 "PNG for an image editor")
+      ->group("Output");
+  verb.add_option(
+          "--checkpoint", flags->checkpoint,
+          "keeps the sums of all samples in a file while rendering, and at the end: to go on "
+          "later, or for airlight merge")
+      ->type_name("FILE")
+      ->group("Output");
+  verb.add_flag("--resume", flags->resume,
+                "goes on with what the checkpoint holds, if it is there; more --spp extend a "
+                "finished one")
       ->group("Output");
   verb.add_flag("--quiet", flags->quiet, "prints nothing but errors")->group("Output");
   return [flags] { return render(*flags); };

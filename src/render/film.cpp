@@ -1,9 +1,13 @@
 #include "render/film.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
+#include <set>
 
 #include "error.h"
 
@@ -35,12 +39,50 @@ Rgb<double> halves_apart(const PixelSums& pixel) {
 
 const std::vector<std::string> rgb = {"R", "G", "B"};
 
+/// Throws Error if two runs share a sample.
+void check_disjoint(const SampleRun& a, const SampleRun& b) {
+  if (a.seed != b.seed) return;
+  for (std::size_t tile = 0; tile < a.counts.size(); ++tile) {
+    const std::uint32_t first = std::max(a.first, b.first);
+    const std::uint32_t end = std::min(a.first + a.counts[tile], b.first + b.counts[tile]);
+    if (first < end)
+      throw Error(fmt::format(
+          "samples {} to {} of seed {} are there twice; accepted: ranges that do not overlap",
+          first, std::min(a.first + a.most(), b.first + b.most()) - 1, a.seed));
+  }
+}
+
+/// Runs in order, those that follow each other as one.
+void add_run(std::vector<SampleRun>& runs, const SampleRun& run) {
+  if (run.most() == 0) return;
+  std::erase_if(runs, [](const SampleRun& r) { return r.most() == 0; });
+  const auto order = [](const SampleRun& r) { return std::pair(r.seed, r.first); };
+  runs.insert(std::ranges::upper_bound(runs, order(run), {}, order), run);
+  for (std::size_t i = 1; i < runs.size();) {
+    SampleRun& before = runs[i - 1];
+    const SampleRun& after = runs[i];
+    const bool follows = before.seed == after.seed && before.least() == before.most() &&
+                         before.first + before.most() == after.first;
+    if (!follows) {
+      ++i;
+      continue;
+    }
+    std::ranges::transform(before.counts, after.counts, before.counts.begin(), std::plus());
+    runs.erase(runs.begin() + std::ptrdiff_t(i));
+  }
+}
+
 }  // namespace
 
 Estimate<double> mean_estimate(const PixelSums& pixel) {
   Estimate<double> sum = pixel.in_scatter[0];
   sum += pixel.in_scatter[1];
   return sum * per_sample(pixel);
+}
+
+std::string part_of(const Film& film) {
+  return fmt::format("{} x {} pixels at {},{} of {} x {}", film.crop.width, film.crop.height,
+                     film.crop.x0, film.crop.y0, film.full.width, film.full.height);
 }
 
 Film::Film(Resolution full_, PixelRect crop_) : Film(full_, crop_, {}, {""}) {}
@@ -64,6 +106,53 @@ Film::Place Film::place(int x, int y) const noexcept {
 
 Film::Place Film::place(std::size_t index) const noexcept {
   return place(int(index % std::size_t(crop.width)), int(index / std::size_t(crop.width)));
+}
+
+int Film::tile_count() const noexcept {
+  const auto tiles = [](int pixels) { return (pixels + tile_side - 1) / tile_side; };
+  return tiles(crop.width) * tiles(crop.height);
+}
+
+PixelRect Film::tile(int index) const noexcept {
+  const int across = (crop.width + tile_side - 1) / tile_side;
+  const int x = index % across * tile_side, y = index / across * tile_side;
+  return {x, y, std::min(tile_side, crop.width - x), std::min(tile_side, crop.height - y)};
+}
+
+template <class Self, class Visit>
+void Film::for_each_piece(Self& film, int index, Visit&& visit) {
+  const PixelRect rect = film.tile(index);
+  const std::size_t across = blocks(rect.width) * film_block::pixels;
+  for (int y = rect.y0; y < rect.y0 + rect.height; y += film_block::side) {
+    const std::size_t first = film.place(rect.x0, y).block * film_block::pixels;
+    const auto rows = [&](auto& numbers, int count) {
+      visit(&numbers[first * std::size_t(count)], across * std::size_t(count));
+    };
+    rows(film.sums_, film.layout.sums());
+    rows(film.features_, film.layout.features());
+    rows(film.samples_, 2);
+  }
+}
+
+std::size_t Film::tile_bytes(int index) const noexcept {
+  std::size_t bytes = 0;
+  for_each_piece(*this, index,
+                 [&](const auto* numbers, std::size_t count) { bytes += count * sizeof *numbers; });
+  return bytes;
+}
+
+void Film::save_tile(int index, std::byte* to) const noexcept {
+  for_each_piece(*this, index, [&](const auto* numbers, std::size_t count) {
+    std::memcpy(to, numbers, count * sizeof *numbers);
+    to += count * sizeof *numbers;
+  });
+}
+
+void Film::load_tile(int index, const std::byte* from) noexcept {
+  for_each_piece(*this, index, [&](auto* numbers, std::size_t count) {
+    std::memcpy(numbers, from, count * sizeof *numbers);
+    from += count * sizeof *numbers;
+  });
 }
 
 FilmPixels Film::at(int x, int y) noexcept {
@@ -110,19 +199,16 @@ PixelSums Film::pixel(std::size_t pixel, int group) const {
 }
 
 void Film::merge(const Film& other) {
-  const auto place = [](const Film& film) {
-    return fmt::format("{} x {} pixels at {},{} of {} x {}", film.crop.width, film.crop.height,
-                       film.crop.x0, film.crop.y0, film.full.width, film.full.height);
-  };
-  if (place(*this) != place(other))
+  if (part_of(*this) != part_of(other))
     throw Error(
         fmt::format("{} and {} cannot be merged; accepted: the same part of the same picture",
-                    place(*this), place(other)));
+                    part_of(*this), part_of(other)));
   if (layout != other.layout || groups != other.groups)
     throw Error(
         "films of other sums or light groups cannot be merged; accepted: those of one scene and "
-        "one "
-        "estimator");
+        "one estimator");
+  for (const SampleRun& run : other.runs)
+    for (const SampleRun& own : runs) check_disjoint(own, run);
   // Depth and object stay those of the first film that has samples.
   constexpr std::size_t width = film_block::pixels;
   const std::size_t features = std::size_t(layout.features());
@@ -137,6 +223,7 @@ void Film::merge(const Film& other) {
   }
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i] += other.samples_[i];
+  for (const SampleRun& run : other.runs) add_run(runs, run);
 }
 
 Rgb<double> Film::radiance(int x, int y) const {
@@ -146,8 +233,23 @@ Rgb<double> Film::radiance(int x, int y) const {
   return sum;
 }
 
+std::int64_t Film::samples() const {
+  std::int64_t sum = 0;
+  for (const SampleRun& run : runs) sum += run.least();
+  return sum;
+}
+
 Picture Film::picture() const {
   Picture result;
+  if (!runs.empty()) {
+    std::set<std::uint32_t> seeds;
+    for (const SampleRun& run : runs) seeds.insert(run.seed);
+    result.metadata = {
+        {"spp", samples()},
+        {"first_sample", std::int64_t(std::ranges::min(runs, {}, &SampleRun::first).first)},
+        {"seed", seeds.size() == 1 ? MetadataValue(std::int64_t(*seeds.begin()))
+                                   : MetadataValue(fmt::format("{}", fmt::join(seeds, ", ")))}};
+  }
   result.width = crop.width;
   result.height = crop.height;
   if (crop.width != full.width || crop.height != full.height)

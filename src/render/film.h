@@ -1,6 +1,8 @@
 #pragma once
 #include <airlight/estimator.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <ranges>
 #include <string>
@@ -36,10 +38,22 @@ struct PixelRect {
   int x0 = 0, y0 = 0, width = 0, height = 0;
 };
 
+/// Samples of one seed that a film holds: in every tile the next ones from the first on.
+struct SampleRun {
+  std::uint32_t seed = 0;
+  std::uint32_t first = 0;
+  std::vector<std::uint32_t> counts;  ///< of each tile
+
+  std::uint32_t least() const { return std::ranges::min(counts); }  ///< that every pixel has
+  std::uint32_t most() const { return std::ranges::max(counts); }
+};
+
 /// The sums of a picture or of a crop of it. Sums of disjoint sample ranges of the same seed can be
-/// added.
+/// added, and those of different seeds. It is rendered tile by tile.
 class Film {
  public:
+  static constexpr int tile_side = 16;  ///< pixels
+
   /// Keeps everything, of lights without a group.
   Film(Resolution full, PixelRect crop);
 
@@ -50,6 +64,7 @@ class Film {
   PixelRect crop;   ///< the part that the film holds
   FilmLayout layout;
   std::vector<std::string> groups;  ///< of lights; the first has no name
+  std::vector<SampleRun> runs;      ///< what has been added, by seed and first sample
 
   /// Pixels of the crop, row by row, the top row first.
   std::size_t pixel_count() const noexcept {
@@ -67,10 +82,23 @@ class Film {
   /// it is a packet's first.
   FilmPixels at(int x, int y) noexcept;
 
-  /// Adds the samples of a film of the same scene, size and crop.
+  /// Tiles of the crop, row by row; those at its right and lower ends may be smaller.
+  int tile_count() const noexcept;
+  PixelRect tile(int index) const noexcept;
+
+  /// The numbers of a tile as bytes: how many, to memory, and from there.
+  std::size_t tile_bytes(int index) const noexcept;
+  void save_tile(int index, std::byte* to) const noexcept;
+  void load_tile(int index, const std::byte* from) noexcept;
+
+  /// Adds the samples of a film of the same scene, size and crop. Throws Error if they share some.
   void merge(const Film& other);
 
-  /// The beauty and every other layer, as something to write; refers to the film.
+  /// Samples that every pixel has.
+  std::int64_t samples() const;
+
+  /// The beauty and every other layer, as something to write; refers to the film. Its metadata tell
+  /// the samples and their seeds.
   Picture picture() const;
 
   /// The radiance of one pixel of the crop: in-scatter, surfaces and background.
@@ -87,10 +115,17 @@ class Film {
   Place place(int x, int y) const noexcept;
   Place place(std::size_t index) const noexcept;
 
+  /// Calls visit(numbers, count) for each piece of memory that holds numbers of a tile.
+  template <class Self, class Visit>
+  static void for_each_piece(Self& film, int index, Visit&& visit);
+
   std::size_t blocks_across_;
   std::vector<double, ZeroedMemory<double>> sums_;  ///< block by block, row by row of its numbers
   std::vector<float, ZeroedMemory<float>> features_;
   std::vector<std::uint32_t, ZeroedMemory<std::uint32_t>> samples_;
 };
+
+/// "640 x 180 pixels at 0,180 of 640 x 360".
+std::string part_of(const Film& film);
 
 }  // namespace airlight

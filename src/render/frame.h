@@ -51,9 +51,7 @@ struct Frame {
 /// A part of the picture that one worker renders, straight into the film: no other worker has these
 /// pixels.
 struct Tile {
-  static constexpr int size = 16;  ///< pixels of a side
-
-  PixelRect rect;  ///< of the film, from its own corner; begins at a multiple of `size`
+  PixelRect rect;  ///< of the film, from its own corner: one of the film's tiles
   SampleRange samples;
   Film& film;
   std::int64_t rejected = 0;  ///< pixels whose sums were not finite and were left out

@@ -190,6 +190,13 @@ std::vector<int> light_group_indices(const Scene& scene) {
 
 }  // namespace
 
+bool goes_through_centre(const RenderSettings& settings) {
+  // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all
+  // share one.
+  return settings.samples_per_ray == 0 ||
+         (!settings.first_sample && settings.spp <= settings.samples_per_ray);
+}
+
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings) {
   check_settings(scene, settings);
   const Estimators estimator = estimator_of_paths(estimator_for(settings), settings);
@@ -209,10 +216,7 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   frame.light_group = light_group_indices(scene);
   frame.light_selection = settings.light_selection;
   frame.filter = settings.filter;
-  // A range of samples belongs to a longer run, whose rays are spread over the pixel unless all
-  // share one.
-  frame.through_centre = settings.samples_per_ray == 0 ||
-                         (!settings.first_sample && settings.spp <= settings.samples_per_ray);
+  frame.through_centre = goes_through_centre(settings);
   // Through the centre, samples that share a wide disc's direction are few, so that a picture sees
   // many directions.
   frame.samples_per_ray = !frame.through_centre  ? std::uint32_t(settings.samples_per_ray)

@@ -23,6 +23,9 @@ std::vector<std::string> light_group_names(const Scene& scene);
 /// What a film must keep of a scene for an estimator.
 FilmLayout film_layout(const Scene& scene, const Estimators& estimator);
 
+/// Whether all samples of a pixel share the ray through its centre.
+bool goes_through_centre(const RenderSettings& settings);
+
 /// Throws Error if the settings don't fit each other, the scene or the machine.
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings);
 

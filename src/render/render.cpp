@@ -12,7 +12,9 @@
 
 #include "error.h"
 #include "geometry/flush_to_zero.h"
+#include "render/checkpoint_keeper.h"
 #include "render/prepare.h"
+#include "render/version.h"
 
 namespace airlight {
 namespace {
@@ -33,11 +35,12 @@ PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
   return *crop;
 }
 
-/// How many samples the next pass gives each pixel: as many as it has, so that passes are few and a
-/// stop loses little. Previews come after passes that stay short.
+/// How many samples the next pass gives each pixel: as many as it has, so that passes are few, up
+/// to a length after which a tile is still done soon: what is not, is lost if the program is
+/// killed. Previews come after passes that stay short.
 std::uint32_t next_pass(std::uint32_t asked, std::uint32_t done, const RenderControl& control) {
   const std::uint32_t first = control.short_passes || control.time_limit > 0 ? 4 : 64;
-  const std::uint32_t longest = control.short_passes ? 64 : asked;
+  const std::uint32_t longest = control.short_passes ? 64 : 1024;
   return std::min({asked - done, std::max(done, first), longest});
 }
 
@@ -70,16 +73,31 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
   const Prepared prepared = prepare(scene_, worlds_->get(scene_, settings.visibility), settings);
   Rendered result{
       .film = Film(scene_.resolution, crop, prepared.frame.layout, light_group_names(scene_))};
+  Film& film = result.film;
+  film.runs = {{std::uint32_t(settings.seed), prepared.samples.first,
+                std::vector<std::uint32_t>(std::size_t(film.tile_count()))}};
   result.instruction_set = prepared.kernel.name;
 
-  const int columns = (crop.width + Tile::size - 1) / Tile::size;
-  const int rows = (crop.height + Tile::size - 1) / Tile::size;
+  double seconds_before = 0;
+  Traits traits;
+  if (control.checkpoint) {
+    traits = traits_of(scene_, settings);
+    if (auto found = resumed(*control.checkpoint, film, traits, settings)) {
+      film = std::move(found->film);
+      seconds_before = found->origin.seconds;
+    }
+  }
+  SampleRun& run = film.runs[0];
+
+  std::vector<std::mutex> tile_locks(run.counts.size());
   std::atomic<std::int64_t> rejected = 0;
   std::atomic<bool> stopped = false;
   std::mutex reporting;
-  Progress progress{.samples = prepared.samples.count};
+  Progress progress{.samples_done = run.least(), .samples = prepared.samples.count};
   std::int64_t sample_tiles_done = 0;
+  for (const std::uint32_t count : run.counts) sample_tiles_done += count;
   const auto start = Clock::now();
+  const auto seconds = [&] { return seconds_before + seconds_since(start); };
 
   const auto must_stop = [&] {
     if (control.stop.stop_requested() ||
@@ -88,24 +106,40 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
     return stopped.load();
   };
 
-  const auto render_tile = [&](int index, SampleRange samples) {
-    if (must_stop()) return;
+  /// Takes a tile from what it has to `count` samples.
+  const auto render_tile = [&](int index, std::uint32_t count) {
+    std::uint32_t& done = run.counts[std::size_t(index)];
+    if (done >= count || must_stop()) return;
     const FlushToZero flush;
-    const int x = index % columns * Tile::size, y = index / columns * Tile::size;
-    Tile tile{{x, y, std::min(Tile::size, crop.width - x), std::min(Tile::size, crop.height - y)},
-              samples,
-              result.film};
-    prepared.kernel.render(prepared.frame, tile);
+    const std::uint32_t added = count - done;
+    Tile tile{film.tile(index), {run.first + done, added}, film};
+    {
+      const std::scoped_lock lock(tile_locks[std::size_t(index)]);
+      prepared.kernel.render(prepared.frame, tile);
+      done = count;
+    }
     rejected += tile.rejected;
     const std::scoped_lock lock(reporting);
     result.paths += tile.paths;
     if (!control.on_progress) return;
-    sample_tiles_done += samples.count;
+    sample_tiles_done += added;
     progress.fraction =
-        double(sample_tiles_done) / (double(columns) * rows * double(prepared.samples.count));
-    progress.seconds = seconds_since(start);
+        double(sample_tiles_done) / (double(film.tile_count()) * double(prepared.samples.count));
+    progress.seconds = seconds();
     control.on_progress(progress);
   };
+
+  std::optional<CheckpointKeeper> keeper;
+  if (control.checkpoint && run.least() < prepared.samples.count) {
+    CheckpointPlan plan = *control.checkpoint;
+    plan.on_failure = [&](const Error& error) {
+      const std::scoped_lock lock(reporting);
+      if (control.checkpoint->on_failure) control.checkpoint->on_failure(error);
+    };
+    keeper.emplace(plan, film, tile_locks, [&] {
+      return Origin{traits, seconds(), prepared.kernel.name, version()};
+    });
+  }
 
   const int threads = settings.threads > 0 ? int(settings.threads) : tbb::task_arena::automatic;
   const tbb::global_control allow_more(
@@ -114,19 +148,20 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
           std::size_t(settings.threads),
           tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
   tbb::task_arena arena(threads);
-  while (result.samples < prepared.samples.count) {
-    const auto done = std::uint32_t(result.samples);
-    const SampleRange pass{prepared.samples.first + done,
-                           next_pass(prepared.samples.count, done, control)};
-    arena.execute(
-        [&] { tbb::parallel_for(0, columns * rows, [&](int tile) { render_tile(tile, pass); }); });
+  while (run.least() < prepared.samples.count) {
+    const std::uint32_t pass_end =
+        run.least() + next_pass(prepared.samples.count, run.least(), control);
+    arena.execute([&] {
+      tbb::parallel_for(0, film.tile_count(), [&](int tile) { render_tile(tile, pass_end); });
+    });
     if (stopped) break;
-    result.samples += pass.count;
-    progress.samples_done = result.samples;
-    progress.seconds = seconds_since(start);
-    if (control.on_pass) control.on_pass(result.film, progress);
+    progress.samples_done = run.least();
+    progress.seconds = seconds();
+    if (control.on_pass) control.on_pass(film, progress);
   }
-  result.seconds = seconds_since(start);
+  result.seconds = seconds();
+  result.kept = !keeper || keeper->finish();
+  result.samples = film.samples();
   result.complete = !stopped;
   result.rejected = rejected;
   return result;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "render/checkpoint_plan.h"
 #include "render/film.h"
 #include "render/path_count.h"
 
@@ -14,7 +15,7 @@ struct Progress {
   std::int64_t samples_done = 0;  ///< a pixel, in passes that are finished
   std::int64_t samples = 0;       ///< a pixel, asked for
   double fraction = 0;            ///< of all work, 0 to 1
-  double seconds = 0;             ///< since the render began
+  double seconds = 0;             ///< since the render began, with those before it was resumed
 };
 
 /// What a caller may want of a render while it runs. All of it is optional.
@@ -25,16 +26,18 @@ struct RenderControl {
   std::stop_token stop;           ///< stops with what is done
   std::function<void(const Progress&)> on_progress;  ///< called from workers, one at a time
   std::function<void(const Film&, const Progress&)>
-      on_pass;  ///< called when every pixel has more samples
+      on_pass;                               ///< called when every pixel has more samples
+  std::optional<CheckpointPlan> checkpoint;  ///< where sums are kept, and where they begin
 };
 
 /// A finished picture and how it came about.
 struct Rendered {
   Film film;
-  double seconds = 0;  ///< from the first ray to the last, without loading
+  double seconds = 0;  ///< from the first ray to the last, without loading; of all runs if resumed
   const char* instruction_set = "";
-  std::int64_t samples = 0;  ///< a pixel, in the passes that were finished
+  std::int64_t samples = 0;  ///< that every pixel has
   bool complete = true;      ///< false if a limit or a stop cut it short
+  bool kept = true;          ///< false if the last checkpoint could not be written
   std::int64_t rejected =
       0;                 ///< pixel sums that were not finite and were left out; a defect if not 0
   PathCount paths = {};  ///< of max_depth above 1
@@ -48,7 +51,7 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
-  /// Throws Error if the settings don't fit each other, the scene, or the machine.
+  /// Throws Error if the settings don't fit each other, the scene, the machine, or what is resumed.
   Rendered render(const RenderSettings& settings, const RenderControl& control = {});
 
   /// The name of the instruction set that `render` would use.

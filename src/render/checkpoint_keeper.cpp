@@ -1,0 +1,66 @@
+#include "render/checkpoint_keeper.h"
+
+#include <fmt/format.h>
+
+#include "image/atomic_file.h"
+
+namespace airlight {
+
+CheckpointKeeper::CheckpointKeeper(CheckpointPlan plan, const Film& film,
+                                   std::span<std::mutex> locks, std::function<Origin()> origin)
+    : plan_(std::move(plan)), film_(film), locks_(locks), origin_(std::move(origin)) {
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    std::mutex sleeping;
+    std::condition_variable_any alarm;
+    std::unique_lock lock(sleeping);
+    const auto interval = std::chrono::duration<double>(plan_.every);
+    while (!alarm.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) write();
+  });
+}
+
+bool CheckpointKeeper::finish() {
+  thread_.request_stop();
+  thread_.join();
+  return write();
+}
+
+bool CheckpointKeeper::write() const {
+  try {
+    write_checkpoint(plan_.file, film_, origin_(), locks_);
+    return true;
+  } catch (const Error& error) {
+    if (plan_.on_failure) plan_.on_failure(error);
+    return false;
+  }
+}
+
+std::optional<Checkpoint> resumed(const CheckpointPlan& plan, const Film& film,
+                                  const Traits& traits, const RenderSettings& settings) {
+  check_writable(plan.file);
+  const std::string file = plan.file.string();
+  if (!std::filesystem::is_regular_file(plan.file)) return std::nullopt;
+  if (!plan.resume)
+    throw Error(file + ": is there already; accepted: a new file, or --resume to go on with it");
+  Checkpoint found = read_checkpoint(plan.file);
+  if (const std::string differs = difference(found.origin.traits, traits); !differs.empty())
+    throw Error(fmt::format("{}: is of another render: {}", file, differs));
+  if (part_of(found.film) != part_of(film))
+    throw Error(
+        fmt::format("{}: holds {}; this render has {}", file, part_of(found.film), part_of(film)));
+  if (found.film.layout != film.layout || found.film.groups != film.groups)
+    throw Error(file + ": holds other sums; accepted: those of this version of Airlight");
+  if (found.film.runs.size() != 1)
+    throw Error(file +
+                ": holds samples that do not follow each other; accepted: one range of them");
+  const SampleRun &run = found.film.runs[0], &own = film.runs[0];
+  if (run.seed != own.seed || run.first != own.first)
+    throw Error(fmt::format(
+        "{}: holds samples of seed {} from {} on; this render takes those of seed {} from {} on",
+        file, run.seed, run.first, own.seed, own.first));
+  if (run.most() > settings.spp)
+    throw Error(fmt::format("{}: holds {} samples a pixel already; accepted: --spp {} or more",
+                            file, run.most(), run.most()));
+  return found;
+}
+
+}  // namespace airlight

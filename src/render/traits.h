@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace airlight {
+
+/// What the sums of a render depend on, but for its seed and its samples: names and values.
+/// Settings stand there as a file would say them, parts of the scene as a hash, "#…", of what they
+/// mean. Threads and instruction set are no part of it: they change sums by rounding only.
+using Traits = std::vector<std::pair<std::string, std::string>>;
+
+/// The traits of a render. Throws Error if the settings don't fit each other or the scene.
+Traits traits_of(const Scene& scene, const RenderSettings& settings);
+
+/// How two renders differ, in words, "" if they don't: "not the same lights", "render.estimator is
+/// mcwvds, not rewv".
+std::string difference(const Traits& found, const Traits& wanted);
+
+/// The value of one of them; "" if there is none.
+std::string value_of(const Traits& traits, const std::string& name);
+
+}  // namespace airlight
