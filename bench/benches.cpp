@@ -1,3 +1,4 @@
+#include "checkpoints.h"
 #include "closed_form.h"
 #include "convergence.h"
 #include "light_selection.h"
@@ -20,6 +21,8 @@ std::vector<Bench> benches() {
       {"convergence", "time to 40 dB on the sphere in fog, one core", convergence},
       {"light_selection", "noise of samples that ask one of five suns each, closed form over blind",
        light_selection},
+      {"checkpoints", "a render that keeps its sums in a file against one that does not",
+       checkpoints},
       {"loading", "an OBJ of 270 000 triangles to the first ray", loading},
   };
 }
