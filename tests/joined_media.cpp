@@ -367,6 +367,8 @@ void expect_same(const char* what, double allowed) {
       for (int c = 0; c < 3; ++c) glides |= w[c] != 0 && std::abs(w[c]) < 0.03;
       if (glides) continue;
       const auto truth = section_of<double, 3>(joined, rays[std::size_t(k)], media[0]);
+      const auto single = section_of<std::conditional_t<lanes<F> == 1, double, float>, 3>(
+          joined, rays[std::size_t(k)], media[0]);
       for (int c = 0; c < 3; ++c) {
         const double found = double(lane(section.integral[c], k));
         double strongest = 0;
@@ -374,7 +376,10 @@ void expect_same(const char* what, double allowed) {
           strongest =
               std::max(strongest,
                        medium.sigma_s[c] * evaluate(medium.phase, dot(w, rays[std::size_t(k)].d)));
-        worst.see(std::abs(found - truth.integral[c]) / strongest, all);
+        // Where a ray lies in a face but for rounding, single precision may decide otherwise.
+        const double off = std::min(std::abs(found - truth.integral[c]),
+                                    std::abs(found - double(single.integral[c])));
+        worst.see(off / strongest, all);
       }
     }
   }
