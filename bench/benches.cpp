@@ -4,6 +4,7 @@
 #include "light_selection.h"
 #include "loading.h"
 #include "memory.h"
+#include "paths.h"
 #include "row.h"
 #include "shadow_rays.h"
 #include "threads.h"
@@ -18,6 +19,7 @@ std::vector<Bench> benches() {
       {"threads", "two threads against two processes", threads},
       {"closed_form", "the closed-form integral of a box, one core", closed_form},
       {"shadow_rays", "shadow rays of a whole render against bare Embree, one core", shadow_rays},
+      {"paths", "multiple scattering against bare Embree, and its lanes, one core", paths},
       {"convergence", "time to 40 dB on the sphere in fog, one core", convergence},
       {"light_selection", "noise of samples that ask one of five suns each, closed form over blind",
        light_selection},

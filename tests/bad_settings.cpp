@@ -116,6 +116,40 @@ TEST(Settings, a_march_of_every_step_goes_with_rm_only) {
         << other;
 }
 
+TEST(Settings, paths_need_an_estimator_that_samples) {
+  EXPECT_EQ(refusal_of([](Scene& s) { s.render.max_depth = 8; }), "");
+  EXPECT_EQ(
+      refusal_of([](Scene& s) {
+        s.render.max_depth = 8;
+        s.render.estimator = "closed_form";
+      }),
+      "render.max_depth = 8: estimator closed_form knows light that scatters once; accepted: 1, "
+      "or an estimator that samples, such as rewv");
+  EXPECT_EQ(refusal_of([](Scene& s) {
+              s.render.max_depth = 2;
+              s.render.estimator = "rm";
+              s.render.edges = Edges::per_step;
+            }),
+            "render.max_depth = 2: edges = \"per_step\" is the plain march of light that scatters "
+            "once; accepted: 1, or edges = \"cached\"");
+}
+
+TEST(Settings, paths_go_on_from_samples_of_the_whole_volume_only) {
+  EXPECT_EQ(refusal_of([](Scene& s) {
+              s.render.max_depth = 2;
+              s.render.continuation = Continuation::mix;
+            }),
+            "");
+  EXPECT_EQ(refusal_of([](Scene& s) {
+              s.render.max_depth = 2;
+              s.render.estimator = "reds";
+              s.render.continuation = Continuation::whole_volume;
+            }),
+            "render.continuation = \"whole_volume\" goes on from samples of whole_volume, which "
+            "estimator reds does not draw; accepted: \"distance\", or an estimator such as rewv or "
+            "mcwvds");
+}
+
 TEST(Settings, the_closed_form_is_for_parallel_light_among_opaque_objects) {
   const auto exact = [](Scene& s) { s.render.estimator = "closed_form"; };
   EXPECT_THAT(refusal_of([&](Scene& s) {

@@ -38,6 +38,9 @@ struct Paths {
 
 /// Is told what paths do; this one does not listen.
 struct UnwatchedPaths {
+  /// Paths are at the beginning of their segments.
+  template <Real F>
+  void begins(const Paths<F>&) const noexcept {}
   /// Light is gathered at a segment.
   template <Real F>
   void gathers(const Paths<F>&, const Estimate<F>&, Mask<F>) const noexcept {}
@@ -79,6 +82,7 @@ class PathKernel {
     for (refill(); any(paths_.alive); refill()) {
       tile_.paths.vertices += std::popcount(bits<F>(paths_.alive));
       tile_.paths.offered += lanes<F>;
+      watcher_.begins(paths_);
       const Mask<F> before = paths_.alive;
       segment();
       deposit(bits<F>(before) & ~bits<F>(paths_.alive));
