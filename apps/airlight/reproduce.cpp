@@ -30,7 +30,7 @@ of its own. Exit status 1 if a value leaves its range.
 
 int list() {
   for (const Reproduction& r : airlight::reproductions())
-    fmt::print("{:<16} {}\n", r.name, r.shows);
+    fmt::print("{:<18} {}\n", r.name, r.shows);
   return 0;
 }
 

@@ -22,6 +22,8 @@ struct PathSettings {
   /// Lights from whose samples paths go on; 0: from a free flight of their own.
   int sample_sources = 0;
   SurfaceSums surface = SurfaceSums::split;
+  /// Paths that carry less than this are ended at random, > 0.
+  double roulette_below = 0.25;
 };
 
 /// Everything a kernel needs of a scene, prepared once a picture. It refers to the scene and the

@@ -90,9 +90,6 @@ class PathKernel {
   }
 
  private:
-  /// Paths that carry less than this are ended at random.
-  static constexpr double roulette_below = 0.25;
-
   /// The pixel and the sample of a lane's path.
   struct Job {
     int x = 0, y = 0;  ///< from the tile's corner
@@ -319,7 +316,8 @@ class PathKernel {
     paths_.via_surface = paths_.via_surface | (reflected & paths_.on_camera_ray);
     paths_.on_camera_ray = paths_.on_camera_ray & !event;
     paths_.events = select(event, paths_.events + F(1), paths_.events);
-    paths_.alive = (event | passes) & survives_roulette(paths_.throughput, F(roulette_below),
+    paths_.alive = (event | passes) & survives_roulette(paths_.throughput,
+                                                        F(Scalar<F>(frame_.paths.roulette_below)),
                                                         points.one(0, stream::roulette));
     paths_.points.vertex = paths_.points.vertex + UInt<F>(1u);
     first_segment_ = first_segment_ & !first_segment_;

@@ -94,13 +94,14 @@ void check_paths(const Estimators& estimator, const RenderSettings& settings) {
                     settings.max_depth));
   const bool mixed = std::holds_alternative<Mixed>(sampled->placement);
   const bool whole = std::holds_alternative<WholeVolume>(sampled->placement);
-  const bool fits = settings.continuation == Continuation::distance || whole ||
+  const bool fits = settings.continuation == Continuation::distance ||
+                    settings.continuation == Continuation::sample || whole ||
                     (settings.continuation == Continuation::mix && mixed);
   if (!fits)
     throw Error(fmt::format(
         "render.continuation = \"{}\" goes on from samples of whole_volume, which estimator {} "
         "does "
-        "not draw; accepted: \"distance\", or an estimator such as rewv or mcwvds",
+        "not draw; accepted: \"distance\", \"sample\", or an estimator such as rewv or mcwvds",
         settings.continuation == Continuation::mix ? "mix" : "whole_volume", settings.estimator));
 }
 
@@ -208,8 +209,11 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
     for (const Lights& light : scene.lights)
       std::visit([&](const auto& l) { frame.shadows.push_back(shadows_of(scene, l)); }, light);
   frame.paths = {.max_depth = int(settings.max_depth), .surface = settings.surface};
-  if (settings.continuation != Continuation::distance)
+  if (settings.continuation != Continuation::distance) {
+    // Every segment then scatters, and paths carry less for it instead of ending.
+    frame.paths.roulette_below = 0.05;
     frame.paths.sample_sources = int(std::ranges::count_if(scene.lights, paths_go_on_from));
+  }
   frame.layout = film_layout(scene, estimator);
   // What the sky and surfaces send into the medium is no part of a ratio.
   if (settings.max_depth > 1) frame.layout.plain = true;

@@ -9,7 +9,7 @@ namespace airlight {
 
 enum class Edges { cached, per_step };
 enum class MixWith { equidistant, distance };
-enum class Continuation { distance, mix, whole_volume };
+enum class Continuation { distance, mix, whole_volume, sample };
 enum class SurfaceSums { split, ratio };
 enum class LightSelection { all, unoccluded, uniform };
 enum class PixelFilter { box, tent, gaussian };
@@ -36,6 +36,8 @@ inline constexpr Word<Continuation> words<Continuation>[] = {
     {"whole_volume", Continuation::whole_volume,
      "from the sample that asks for light, drawn by whole_volume: unbiased, but with rare "
      "fireflies in dense fog"},
+    {"sample", Continuation::sample,
+     "from the sample that asks for light, wherever the estimator draws it, as in Velinov 2021"},
 };
 template <>
 inline constexpr Word<SurfaceSums> words<SurfaceSums>[] = {

@@ -86,6 +86,7 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
   const std::int64_t spp =
       settings.reference_spp > 0 ? settings.reference_spp : default_reference_spp;
   reference.estimator = "rewv";
+  reference.continuation = Continuation::distance;  // no weight of a path grows
   reference.spp = (spp + 1) / 2;
   reference.seed = reference_seed;
   Film film = whole(renderer.render(reference), reference).film;

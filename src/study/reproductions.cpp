@@ -13,7 +13,9 @@ void fig1a(Reproduced& out);
 void fig2(Reproduced& out);
 void fig4(Reproduced& out);
 void fig5(Reproduced& out);
+void fig6_multiple(Reproduced& out);
 void fig6_single(Reproduced& out);
+void fig7_multiple(Reproduced& out);
 void fig7_single(Reproduced& out);
 void fig8(Reproduced& out);
 void fig9(Reproduced& out);
@@ -40,8 +42,13 @@ constexpr Reproduction all[] = {
     {"000/fig6-single", "Five estimators of single scattering at four samples a pixel",
      "A black ball in a box of fog, and how far each estimator at 4 spp is from the exact picture.",
      paper_000::fig6_single},
+    {"000/fig6-multiple", "Five estimators of multiple scattering at four samples a pixel",
+     "The black ball in a box of fog that scatters light up to twelve times.",
+     paper_000::fig6_multiple},
     {"000/fig7-single", "How fast five estimators of single scattering converge",
      "The scene of 000/fig6-single from 1 to 256 samples a pixel.", paper_000::fig7_single},
+    {"000/fig7-multiple", "How fast five estimators of multiple scattering converge",
+     "The scene of 000/fig6-multiple from 1 to 128 samples a pixel.", paper_000::fig7_multiple},
     {"000/fig8", "A wall that breaks, at four samples a pixel",
      "RM and MCWVDS at 4 spp in dust, seen from where the light comes.", paper_000::fig8},
     {"000/fig9", "Ray marching and whole-volume samples in a room",

@@ -32,4 +32,14 @@ Scene black_ball(const Configuration& configuration) {
   return scene;
 }
 
+Scene black_ball_many_times() {
+  Scene scene = black_ball(configurations[0]);
+  scene.resolution = {48, 48};
+  scene.media[0].sigma_s = scene.media[0].sigma_t * 0.86;
+  std::get<Directional>(scene.lights[0]).irradiance = Rgb<double>(14.52);
+  scene.render.max_depth = 12;
+  scene.render.continuation = Continuation::sample;
+  return scene;
+}
+
 }  // namespace airlight::paper_000

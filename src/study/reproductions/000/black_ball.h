@@ -32,6 +32,11 @@ inline constexpr std::array five_estimators = {"mcwvds", "rm", "rees", "mcds", "
 /// "MCWVDS" of "mcwvds".
 std::string upper_case(std::string name);
 
+/// Configuration A at 48 x 48 pixels in fog of albedo 0.86, light scattering up to 12 times: what
+/// figures 6 and 7 show of multiple scattering, every path going on from the sample that asks for
+/// light. The light is as strong as makes the brightest thousandth of the picture 1.
+Scene black_ball_many_times();
+
 /// The scene, 256 x 256 pixels, every sample on the ray through its pixel's centre.
 Scene black_ball(const Configuration& configuration);
 
