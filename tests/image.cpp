@@ -437,10 +437,10 @@ TEST_P(EveryFormat, is_checked_before_a_long_render) {
   check_picture_path(folder / name);
   EXPECT_EQ(folder.files(), 0U);
   EXPECT_THAT(error_of([&] { check_picture_path(folder / ("no/" + name)); }),
-              EndsWith(": cannot be written: No such file or directory"));
+              HasSubstr(": cannot be written: there is no folder "));
   std::filesystem::create_directory(folder / name);
   EXPECT_THAT(error_of([&] { check_picture_path(folder / name); }),
-              EndsWith(": cannot be written: Is a directory"));
+              EndsWith(": cannot be written: it is a folder"));
 }
 
 TEST_P(EveryFormat, refuses_what_is_not_finite_and_keeps_the_old_file) {
