@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "geometry/flush_to_zero.h"
+#include "geometry/packet.h"
 #include "geometry/world.h"
 #include "measure.h"
 #include "render/prepare.h"
@@ -26,23 +27,6 @@ struct Recorder {
   }
 };
 
-template <int width>
-struct Packets;
-template <>
-struct Packets<8> {
-  using Ray = RTCRay8;
-  static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, Ray* ray) {
-    rtcOccluded8(valid, scene, context, ray);
-  }
-};
-template <>
-struct Packets<16> {
-  using Ray = RTCRay16;
-  static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, Ray* ray) {
-    rtcOccluded16(valid, scene, context, ray);
-  }
-};
-
 using ShadowRay = std::array<float, 6>;  ///< origin and direction; a direction of 0 is none
 
 /// The shadow rays of a picture with one camera ray through each pixel's centre, in the packets of
@@ -50,7 +34,7 @@ using ShadowRay = std::array<float, 6>;  ///< origin and direction; a direction 
 template <int width>
 struct PictureOfRays {
   struct alignas(64) Packet {
-    typename Packets<width>::Ray ray;
+    typename PacketCalls<width>::Ray ray;
     alignas(64) int valid[width];
   };
   std::vector<Packet> packets;
@@ -111,10 +95,13 @@ struct PictureOfRays {
     ray.active = ray.t_max > 0;
     Halves<float> sums;
     const auto& sampled = std::get<Sampled>(frame.estimator);
-    if (medium.is_grey())
-      sampled.add<1>(medium, space, sun, 0, ray, prepared.samples, false, sampler, recorder, sums);
-    else
-      sampled.add<3>(medium, space, sun, 0, ray, prepared.samples, false, sampler, recorder, sums);
+    for (std::uint32_t i = 0; i < prepared.samples.count; i += frame.samples_per_ray, ++ray.index) {
+      const SampleRange some{i, std::min(frame.samples_per_ray, prepared.samples.count - i)};
+      if (medium.is_grey())
+        sampled.add<1>(medium, space, sun, 0, ray, some, false, sampler, recorder, sums);
+      else
+        sampled.add<3>(medium, space, sun, 0, ray, some, false, sampler, recorder, sums);
+    }
     return std::move(recorder.rays);
   }
 
@@ -141,8 +128,8 @@ struct PictureOfRays {
     rtcInitIntersectContext(&context);
     std::size_t blocked = 0;
     for (const Packet& packet : packets) {
-      typename Packets<width>::Ray ray = packet.ray;
-      Packets<width>::occluded(packet.valid, scene, &context, &ray);
+      typename PacketCalls<width>::Ray ray = packet.ray;
+      PacketCalls<width>::occluded(packet.valid, scene, &context, &ray);
       blocked += ray.tfar[0] < 0;
     }
     keep(blocked);

@@ -177,7 +177,7 @@ TEST(JoinedMedia, know_depth_and_strength_at_every_point) {
       bool near = false;
       for (const double b : all.breaks()) near |= std::abs(b - t) < 1e-9;
       if (near) continue;
-      const auto at = section.at(t), alone = section.seen(t, all.ray.w);
+      const auto at = section.at(t), alone = section.intersected(t, far_away);
       for (int c = 0; c < 3; ++c) {
         const double d = double(all.depth(t, c)), s = all.strength(t, c);
         depth.see(std::abs(at.depth[c] - d) / (1 + d), all);

@@ -94,7 +94,7 @@ struct Disc {
 };
 
 struct Truth {
-  double lit = 0, open = 0, centre = 0;  ///< centre: unshadowed light from the disc's centre only
+  double lit = 0, open = 0;
 };
 
 /// In-scatter of the whole picture, on average.
@@ -110,15 +110,13 @@ Truth mean_truth(const Scene& scene, const std::vector<Sheet>& sheets, int rings
           rings, spokes, [&](const Vector& w) { return truth.in_scatter_grey(ray, sun, w, true); });
       mean.open += disc.mean(
           4, 8, [&](const Vector& w) { return truth.in_scatter_grey(ray, sun, w, false); });
-      mean.centre += truth.in_scatter_grey(ray, sun, -sun.direction, false);
     }
-  return {mean.lit / 36, mean.open / 36, mean.centre / 36};
+  return {mean.lit / 36, mean.open / 36};
 }
 
 class Penumbra : public testing::TestWithParam<double> {};
 
 TEST_P(Penumbra, in_fog_is_the_mean_over_the_disc) {
-  const bool is_narrow = GetParam() == narrow;
   const Scene scene = scene_of(GetParam(), {awning});
   const Truth truth = mean_truth(scene, {awning}, 12, 32);
   // Kinks only, where the shadow's edge leaves a ray: the rule must have converged.
@@ -126,7 +124,6 @@ TEST_P(Penumbra, in_fog_is_the_mean_over_the_disc) {
   EXPECT_LT(rule, 1e-4);
   EXPECT_GT(truth.lit, 0.2 * truth.open);
   EXPECT_LT(truth.lit, 0.8 * truth.open);
-  EXPECT_NEAR(truth.centre / truth.open, 1, is_narrow ? 1e-4 : 1e-2);
   double worst = 0, least_seen = 0;
   for (const Kernel* kernel : {available_kernels().front(), available_kernels().back()})
     for (const char* placement : {"equidistant", "distance", "whole_volume", "mix"})
@@ -135,10 +132,8 @@ TEST_P(Penumbra, in_fog_is_the_mean_over_the_disc) {
         RenderSettings settings = scene.render;
         settings.estimator = std::string(placement) + "+" + form;
         settings.isa = kernel->isa;
-        // A wide disc gives each camera ray one direction: through the pixel's centre that is one a
-        // picture, and only other seeds bring others.
-        settings.spp = is_narrow ? 64 : 16;
-        const int seeds = is_narrow ? 64 : 2400;
+        settings.spp = 64;
+        constexpr int seeds = 200;
         Renderer renderer(scene);
         std::vector<double> plain, analytic, occluded, unoccluded;
         for (int seed = 0; seed < seeds; ++seed) {
@@ -150,25 +145,21 @@ TEST_P(Penumbra, in_fog_is_the_mean_over_the_disc) {
           plain.push_back(mean.plain.g / 36), analytic.push_back(mean.analytic.g / 36);
           occluded.push_back(mean.occluded.g / 36), unoccluded.push_back(mean.unoccluded.g / 36);
         }
-        const auto judge = [&](const char* sum, const std::vector<double>& values, double want,
-                               double allowance) {
+        const auto judge = [&](const char* sum, const std::vector<double>& values, double want) {
           const double seen = test::relative_standard_error(values);
-          EXPECT_LT(seen, 1e-3) << sum << " cannot be judged: " << what;
+          EXPECT_LT(seen, 5e-4) << sum << " cannot be judged: " << what;
           // Rounding, and what is left of the quadrature's error when its steps are halved.
-          const double slack = 4 * (seen + 3e-6) * want + rule / 3 * want + allowance;
+          const double slack = 4 * (seen + 3e-6) * want + rule / 3 * want;
           EXPECT_NEAR(mean(values), want, slack) << sum << ", " << what;
           worst = std::max(worst, std::abs(mean(values) - want) / (seen * want + 1e-6 * want));
           least_seen = std::max(least_seen, seen);
         };
         if (std::string(form) == "ratio") {
-          // Below 0.6 degrees the closed form is that of the centre.
-          judge("analytic", analytic, is_narrow ? truth.centre : truth.open, 0);
-          judge("occluded", occluded, truth.lit, 0);
-          judge("unoccluded", unoccluded, truth.open, 0);
+          judge("analytic", analytic, truth.open);
+          judge("occluded", occluded, truth.lit);
+          judge("unoccluded", unoccluded, truth.open);
         } else {
-          const bool by_centre = std::string(form) == "difference" && is_narrow;
-          judge("plain", plain, truth.lit + (by_centre ? truth.centre - truth.open : 0), 0);
-          judge("plain against the disc", plain, truth.lit, by_centre ? 1e-4 * truth.open : 0);
+          judge("plain", plain, truth.lit);
         }
       }
   std::printf(

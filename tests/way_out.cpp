@@ -439,7 +439,9 @@ void check_boundaries(const Shape& shape, const test::Body& body, const Vec3<dou
   for (int i = 0; i < 20; ++i) {
     const BoxRay ray = ray_in(body, centre, random);
     const Vec3<double> p = ray.o + ray.d * (0.5 * ray.t_max);
-    const double found = space.distance_out(space.point(p), space.outward(space.vector(ray.w)));
+    const LocalRay<double> on{space.point(p), space.vector(ray.d)};
+    const double found =
+        space.way_out(on, space.outward(space.vector(ray.w)), 0.1 * ray.t_max).distance_out(0.);
     distance.see(std::abs(found - last_inside(body, point(p), point(ray.w), 100)), ray);
 
     // From outside towards the body, past it, or from inside it.

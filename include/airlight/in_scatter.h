@@ -20,7 +20,8 @@ void with_medium_ray(std::span<const Medium> media, const CameraRay<F>& camera,
 }
 
 /// What media scatter once from a light into a camera ray, estimated with samples 0 to
-/// samples − 1 of the sampler: the one call for a program that has a renderer of its own. Add
+/// samples − 1 of the sampler: the one call for a program that has a renderer of its own. Every
+/// four samples share a direction towards a light's disc. Add
 /// the estimates of several lights, and average those of several rays of a pixel, before
 /// `radiance()` is asked of the outcome. Ask `estimator.unsupported(medium, light)` first. Several
 /// media must be boxes or convex polyhedra that do not overlap, as many as `Joined` has room for.
@@ -33,8 +34,14 @@ Estimate<F> in_scatter(const Sampled& estimator, std::span<const Medium> media, 
   with_medium_ray(
       media, camera,
       [&](const Medium& medium, const auto& space, const MediumRay<F>& ray, auto channels) {
-        estimator.template add<channels()>(medium, space, light, light_index, ray, {0, samples},
-                                           false, sampler, world, sums);
+        const std::uint32_t sharing = light.angular_diameter > 0 ? 4 : samples;
+        for (std::uint32_t i = 0; i < samples; i += sharing) {
+          MediumRay<F> part = ray;
+          part.index = i / sharing;
+          estimator.template add<channels()>(medium, space, light, light_index, part,
+                                             {i, std::min(sharing, samples - i)}, false, sampler,
+                                             world, sums);
+        }
       });
   sums[0] += sums[1];
   return sums[0] * F(Scalar<F>(1) / Scalar<F>(samples));

@@ -24,9 +24,6 @@ struct SpaceBelowStart {
 
   Interval<F> clip(const LocalRay<F>& ray) const noexcept { return space.clip(ray); }
   Outward<F> outward(Vec3<F> w) const noexcept { return space.outward(w); }
-  F distance_out(Vec3<F> p, const Outward<F>& out) const noexcept {
-    return space.distance_out(p, out);
-  }
 
   WayOut<F, max_segments> way_out(const LocalRay<F>& ray, const Outward<F>& out,
                                   F t_max) const noexcept {

@@ -56,11 +56,6 @@ struct Section {
     return t + min(space.clip(LocalRay<F>{ray(t), w}).t_exit, reach);
   }
 
-  /// The same for light from elsewhere, `toward` in the shape's coordinates.
-  F seen(F t, Vec3<F> toward) const noexcept {
-    return t + space.distance_out(ray(t), space.outward(toward));
-  }
-
   /// e^{−σ length} for each channel.
   Channels<F, channels> transmittance(F length) const noexcept {
     Channels<F, channels> result;

@@ -33,9 +33,8 @@ struct Section<F, channels_, Space> {
   }
 
   Point at(F t) const noexcept { return pieces.at(t); }
-  Point intersected(F t, F /*reach*/) const noexcept { return seen(t, w); }
-  Point seen(F t, Vec3<F> toward) const noexcept {
-    return space.template seen<channels>(ray, t, toward, inside);
+  Point intersected(F t, F /*reach*/) const noexcept {
+    return space.template seen<channels>(ray, t, w, inside);
   }
 
   Channels<F, channels> transmittance(const Point& at) const noexcept {

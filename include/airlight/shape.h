@@ -33,7 +33,6 @@ inline constexpr Scalar<F> parallel_below = Scalar<F>(std::same_as<F, double> ? 
 ///
 ///     space.outward(w)                    what is shared by all points when light comes from w
 ///     (local) space.way_out(ray, outward, t_max)  the way out for a ray that starts inside
-///     space.distance_out(p, outward)      from p along w to the boundary  [m]
 ///
 /// or, of a concave one, what `InPieces` asks for.
 template <class S>
@@ -47,8 +46,10 @@ concept Shape = requires(const S shape, LocalRay<double> ray, Vec3<double> v) {
 
 /// A shape that every line meets in one interval.
 template <class S>
-concept ConvexShape = Shape<S> && requires(const S shape, Vec3<double> v) {
-  { shape.space().distance_out(v, shape.space().outward(v)) } -> std::same_as<double>;
+concept ConvexShape = Shape<S> && requires(const S shape, LocalRay<double> ray, Vec3<double> v) {
+  {
+    shape.space().way_out(ray, shape.space().outward(v), 1.).length_at(0.)
+    } -> std::same_as<double>;
 };
 
 /// A plane that light starts at: the distance to it from the point p(t) of a ray, along w, is

@@ -39,6 +39,8 @@ struct Frame {
   bool through_centre = false;  ///< every sample of a pixel shares the ray through its centre
   /// Samples that a camera ray is traced for; where all share one, what is taken of it at a time.
   std::uint32_t samples_per_ray = 1;
+  /// Which half of the samples one belongs to goes by its ray; else by the sample, as all share one.
+  bool halve_by_ray = false;
   std::uint32_t samples_per_surface_ray =
       1;  ///< samples of a camera ray that share a surface's shadow ray to a light with a disc
   std::uint32_t seed = 0;

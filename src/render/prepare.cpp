@@ -21,10 +21,10 @@ std::uint32_t noise_seed(const RenderSettings& settings) {
   return mix_bits(mix_bits(seed ^ 0x6c8e9cf5u) + std::uint32_t(settings.frame));
 }
 
-bool has_wide_disc(const Scene& scene) {
+bool has_disc(const Scene& scene) {
   for (const Lights& light : scene.lights)
     if (const auto* sun = std::get_if<Directional>(&light))
-      if (sun->angular_diameter > Sampled::narrow_disc) return true;
+      if (sun->angular_diameter > 0) return true;
   return false;
 }
 
@@ -221,12 +221,16 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   frame.light_selection = settings.light_selection;
   frame.filter = settings.filter;
   frame.through_centre = goes_through_centre(settings);
-  // Through the centre, samples that share a wide disc's direction are few, so that a picture sees
+  // Through the centre, samples that share a direction of a disc are few, so that a picture sees
   // many directions.
-  frame.samples_per_ray = !frame.through_centre  ? std::uint32_t(settings.samples_per_ray)
-                          : has_wide_disc(scene) ? 4
-                                                 : 1024;
-  frame.samples_per_surface_ray = frame.through_centre ? 4 : std::min(frame.samples_per_ray, 4u);
+  constexpr std::uint32_t sharing = 4;
+  const std::int64_t end = settings.first_sample.value_or(0) + settings.spp;
+  frame.halve_by_ray = !frame.through_centre || (has_disc(scene) && end > sharing);
+  frame.samples_per_ray = !frame.through_centre ? std::uint32_t(settings.samples_per_ray)
+                          : has_disc(scene)     ? sharing
+                                                : 1024;
+  frame.samples_per_surface_ray =
+      frame.through_centre ? sharing : std::min(frame.samples_per_ray, sharing);
   frame.seed = noise_seed(settings);
   return {frame,
           kernel_of(estimator, settings.isa),

@@ -123,14 +123,13 @@ template <int channels, Real F, class Space, class L, class Watch>
 void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
                     const MediumRay<F>& ray, SampleRange samples, const LightShare<F>* share,
                     const Sampler<F>& sampler, Halves<F>& sums, Watch&& watch) noexcept {
-  const bool halve_by_ray = !frame.through_centre;
   if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
     sampled->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    halve_by_ray, sampler, frame.world, sums, watch, share);
+                                    frame.halve_by_ray, sampler, frame.world, sums, watch, share);
   if constexpr (std::same_as<F, double>)
     if (const auto* exact = std::get_if<ClosedForm>(&frame.estimator); exact && ray.active)
       exact->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    halve_by_ray, ExactVisibility{frame.shadows}, sums);
+                                    frame.halve_by_ray, ExactVisibility{frame.shadows}, sums);
 }
 
 template <int channels, Real F, class Space, class L>
@@ -233,9 +232,8 @@ class TileKernel {
 
     const F n(Scalar<F>(samples.count));
     Halves<F>& ungrouped = sums_.groups[Frame::ungrouped].in_scatter;
-    const bool halve_by_ray = !frame_.through_centre;
     for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
-      const auto half = std::size_t(half_of(halve_by_ray ? index : i));
+      const auto half = std::size_t(half_of(frame_.halve_by_ray ? index : i));
       ++sums_.samples[half];
       ungrouped[half].plain += walk.emission;
     }

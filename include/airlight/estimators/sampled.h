@@ -55,13 +55,6 @@ struct Sampled {
   static constexpr auto name = "sampled";
   static constexpr auto meaning = "samples along the camera ray: a placement and a form";
 
-  /// Discs up to this size are sampled about one way out through their centre; the closed form of
-  /// the centre differs from the disc's mean by 1e-5 on the median ray and mostly below 5e-4, but
-  /// by percents beyond a depth of 10 and, towards the sun, where the phase function varies across
-  /// the disc: 1e-3 at g = 0.9, 0.2 at g = 0.99. Wider ones get a way out of their own for each
-  /// camera ray.  [degrees]
-  static constexpr double narrow_disc = 0.6;
-
   const char* unsupported(const Medium& medium, const Lights& light) const noexcept {
     if (std::holds_alternative<Unbounded>(medium.shape) &&
         std::holds_alternative<Directional>(light))
@@ -82,20 +75,20 @@ struct Sampled {
     F reach;        ///< from the sample to where light begins  [m]
     Mask<F> asked;  ///< the lanes whose sample asks this light
     Rgb<F> weight;
-    Vec3<F> from, to_light;
+    Vec3<F> from;
   };
 
   /// Samples are drawn a few at a time: each is one long chain of dependent steps, and those of
   /// several overlap in the processor.
   static constexpr std::uint32_t drawn_ahead = 8;
 
-  /// Where light comes from when the way out of a camera ray is found: a wide disc gives every ray
-  /// a direction of its own.
+  /// Where light comes from for a camera ray: a disc gives every ray a direction of its own, for
+  /// which all forms are exact.
   template <Real F, class L, DrawsPoints<F> Points>
   static Vec3<F> toward(const L& light, int light_index, std::uint32_t ray,
                         const Points& sampler) noexcept {
     const Vec3<F> centre(light.toward());
-    if (!(light.angular_diameter > narrow_disc)) return centre;
+    if (!(light.angular_diameter > 0)) return centre;
     return uniform_cap(centre, F(Scalar<F>(light.cap_height())),
                        sampler.two(ray, stream::disc(light_index)));
   }
@@ -141,18 +134,13 @@ struct Sampled {
     const auto lit = lit_part(light, medium, space, whole_ray);
     const MediumRay<F>& ray = lit.ray;
     if (!any(ray.active)) return;
-    const bool disc = light.angular_diameter > 0;
-    const bool wide = light.angular_diameter > narrow_disc;
-    const F cap(Scalar<F>(light.cap_height()));
-    const Vec3<F> centre(light.toward());
     const Vec3<F> w = toward<F>(light, light_index, ray.index, sampler);
 
     auto section = section_along<F, channels>(medium, lit.space, ray, space.vector(w));
     if (!intersect_every_step) section.trace_way_out();
 
-    const F toward_camera = phase_along<Space>(medium, dot(w, ray.direction));
-    const Rgb<F> strength =
-        Rgb<F>(strength_along<Space>(medium, light.irradiance)) * ray.dimmed * toward_camera;
+    const Rgb<F> strength = Rgb<F>(strength_along<Space>(medium, light.irradiance)) * ray.dimmed *
+                            phase_along<Space>(medium, dot(w, ray.direction));
 
     std::array<Rgb<F>, 2> occluded, unoccluded;
     std::array<std::uint32_t, 2> count{};
@@ -162,7 +150,6 @@ struct Sampled {
               place.on(section, carried<channels, Space>(medium, light, ray.dimmed));
           const auto distances =
               sampler.stream(share ? stream::light_choice : stream::distance(light_index));
-          const auto discs = sampler.stream(stream::disc(light_index));
           using Sample = Drawn<F, typename decltype(section)::Point>;
           const auto draw = [&](std::uint32_t i) {
             Sample d;
@@ -177,19 +164,7 @@ struct Sampled {
             d.from = ray.origin + ray.direction * d.along;
             d.reach = light.reach(d.from);
             d.at = intersect_every_step ? section.intersected(d.t, d.reach) : section.at(d.t);
-            d.to_light = w;
-            if (!disc || wide) {
-              d.weight = to_rgb<F>(placed.weights(d.t, d.at));
-              return d;
-            }
-            d.to_light = uniform_cap(centre, cap, discs.two(i));
-            const auto own = section.seen(d.t, space.vector(d.to_light));
-            const F phase = phase_along<Space>(medium, dot(d.to_light, ray.direction));
-            // Its own e^{−σ length} over the density, in one step: where light glances off a face
-            // of dense fog, the weight of the centre underflows and the change from it overflows.
-            d.weight = to_rgb<F>(balanced_weights<F, channels>(section.reaching(own),
-                                                               placed.pdf(d.t, d.at))) *
-                       (phase / toward_camera);
+            d.weight = to_rgb<F>(placed.weights(d.t, d.at));
             return d;
           };
           const auto trace = [&](std::uint32_t i, Sample& d) {
@@ -199,7 +174,7 @@ struct Sampled {
               if (!any(d.asked)) return;
               d.weight = d.weight * select(d.asked, share->boost(), F(0));
             }
-            Rgb<F> visible = world.transmit(d.from, d.to_light, d.reach, light_index, d.asked);
+            Rgb<F> visible = world.transmit(d.from, w, d.reach, light_index, d.asked);
             if (ray.filtered)
               visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, d.asked);
             const F pdf = placed.pdf(d.t, d.at);

@@ -75,14 +75,6 @@ struct Box {
       return out;
     }
 
-    template <Real F>
-    F distance_out(Vec3<F> p, const Outward<F>& out) const noexcept {
-      const F x = fma(out.plane.x - p.x, out.inverse.x, out.parallel.x);
-      const F y = fma(out.plane.y - p.y, out.inverse.y, out.parallel.y);
-      const F z = fma(out.plane.z - p.z, out.inverse.z, out.parallel.z);
-      return airlight::max(airlight::min(airlight::min(x, y), z), F(0));
-    }
-
     static constexpr int max_segments = 3;
 
     /// The envelope of three lines: sorted by slope, its kinks are where neighbours cross; without

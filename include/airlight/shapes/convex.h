@@ -70,19 +70,6 @@ struct Convex {
       return {w, F(parallel_below<F>) * length(w)};
     }
 
-    template <Real F>
-    F distance_out(Vec3<F> p, const Outward<F>& out) const noexcept {
-      F d(far_away);
-      for (int k = 0; k < face_count; ++k) {
-        const Vec3<F> n(faces[k].n);
-        const F facing = dot(n, out.w);
-        const Mask<F> met = facing > out.least;
-        const F above = F(Scalar<F>(faces[k].h)) - dot(n, p);
-        d = min(d, select(met, above / select(met, facing, F(1)), F(far_away)));
-      }
-      return max(d, F(0));
-    }
-
     static constexpr int max_segments = max_faces;
 
     /// The lower envelope of a line a face, walked from kink to kink: usually one to three steps.

@@ -33,10 +33,6 @@ struct Unbounded {
     Outward<F> outward(Vec3<F>) const noexcept {
       return {};
     }
-    template <Real F>
-    F distance_out(Vec3<F>, const Outward<F>&) const noexcept {
-      return F(far_away);
-    }
 
     static constexpr int max_segments = 1;
 
