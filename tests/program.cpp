@@ -192,6 +192,8 @@ TEST(Program, refuses_outputs_before_it_renders) {
   expect_one_line(desk.render("missing/out.png", endless), 2, "there is no folder ");
   expect_one_line(desk.render("folder.png", endless), 2, "folder.png: cannot be written: it is a");
   expect_one_line(desk.render(".", endless), 2, "is a folder; accepted: a file in it, such as ");
+  expect_one_line(desk.render("out.png", {"--size", "65535x65535"}), 2,
+                  "65535 x 65535 pixels need ");
   expect_one_line(desk.render("good.png", with(endless, {"-o", desk / "bad.gif"})), 2, "bad.gif");
   EXPECT_THAT(desk.folder.names(), ElementsAre("folder.png", "scene.toml"));
 }

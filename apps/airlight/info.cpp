@@ -1,26 +1,22 @@
 #include <fmt/format.h>
 
+#include "numbers_text.h"
 #include "render/summary.h"
 #include "scene_flags.h"
 #include "verbs.h"
 
 namespace {
 
-using airlight::Rgb, airlight::Summary, airlight::Vec3;
+using airlight::Rgb, airlight::Summary;
 
 constexpr const char* examples = R"(Examples:
   airlight info scenes/sunroom.toml
   airlight info model.glb -D render.estimator=closed_form
 )";
 
-std::string text(const Vec3<double>& v) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x + 0., v.y + 0., v.z + 0.);  // no −0
-}
-
-/// One number where the channels are equal.
-std::string text(const Rgb<double>& c) {
-  if (c.r == c.g && c.g == c.b) return fmt::format("{:.4g}", c.r);
-  return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", c.r, c.g, c.b);
+template <class T>
+std::string shown(const T& value) {
+  return text(value, 4);
 }
 
 std::string bytes(std::size_t n) { return fmt::format("{:.1f} MiB", double(n) / (1 << 20)); }
@@ -29,17 +25,17 @@ void print_medium(const std::string& name, const airlight::Medium& medium,
                   const airlight::MediumSummary& fog) {
   fmt::print("{:<10} {}\n", name, fog.shape);
   fmt::print("           the camera is {} the medium\n", fog.camera_inside ? "inside" : "outside");
-  fmt::print("           sigma_s {} /m, sigma_t {} /m, albedo {}\n", text(medium.sigma_s),
-             text(medium.sigma_t), text(fog.albedo));
+  fmt::print("           sigma_s {} /m, sigma_t {} /m, albedo {}\n", shown(medium.sigma_s),
+             shown(medium.sigma_t), shown(fog.albedo));
   fmt::print("           phase {}\n", fog.phase);
   if (medium.emission != Rgb<double>())
-    fmt::print("           emission {} W/(m3 sr)\n", text(medium.emission));
-  fmt::print("           mean free path {} m\n", text(fog.mean_free_path));
+    fmt::print("           emission {} W/(m3 sr)\n", shown(medium.emission));
+  fmt::print("           mean free path {} m\n", shown(fog.mean_free_path));
   if (fog.across)
     fmt::print(
         "           optical depth {} across (the longest way through its middle along x, y or z: "
         "{:.4g} m)\n",
-        text(fog.optical_depth), *fog.across);
+        shown(fog.optical_depth), *fog.across);
   if (fog.enter)
     fmt::print("           seen from {:.4g} m to {} along the middle of the picture\n", *fog.enter,
                fog.exit ? fmt::format("{:.4g} m", *fog.exit) : "infinity");
@@ -53,17 +49,17 @@ void print(const airlight::Scene& scene, const Summary& summary) {
                scene.background_image.pixels.empty() ? "the background, no picture,"
                                                      : "the background's picture");
   if (!summary.bounds.empty())
-    fmt::print("bounds     {} to {} m\n", text(summary.bounds.low), text(summary.bounds.high));
+    fmt::print("bounds     {} to {} m\n", shown(summary.bounds.low), shown(summary.bounds.high));
   fmt::print(
       "camera     at {} looking at {}, vertical field of view {:.4g} degrees, {} x {} pixels\n",
-      text(scene.camera.position), text(scene.camera.target), scene.camera.fov,
+      shown(scene.camera.position), shown(scene.camera.target), scene.camera.fov,
       scene.resolution.width, scene.resolution.height);
   for (std::size_t i = 0; i < scene.media.size(); ++i)
     print_medium(fmt::format("media.{}", i), scene.media[i], summary.media[i]);
   for (std::size_t i = 0; i < summary.lights.size(); ++i) {
     const airlight::LightSummary& light = summary.lights[i];
     fmt::print("lights.{}   {} from {}, irradiance {} W/m2, angular diameter {:.4g} degrees\n", i,
-               light.kind, text(light.toward), text(light.irradiance), light.angular_diameter);
+               light.kind, shown(light.toward), shown(light.irradiance), light.angular_diameter);
     if (light.lit_part)
       fmt::print("           reaches about {:.3g} % of the fog in the picture\n",
                  100 * *light.lit_part);

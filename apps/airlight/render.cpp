@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "error.h"
 #include "flags.h"
@@ -10,6 +11,7 @@
 #include "numbers.h"
 #include "outputs.h"
 #include "progress_line.h"
+#include "render/prepare.h"
 #include "render/summary.h"
 #include "render/version.h"
 #include "scene_flags.h"
@@ -114,6 +116,23 @@ airlight::Picture picture_of(const airlight::Film& film, const airlight::RenderS
   return picture;
 }
 
+/// Throws Error if the sums of so many pixels are more than the machine could ever hold: the system
+/// grants memory that it does not have.
+void check_memory(const Scene& scene, const std::optional<PixelRect>& crop) {
+  const std::int64_t width = crop ? crop->width : scene.resolution.width;
+  const std::int64_t height = crop ? crop->height : scene.resolution.height;
+  const double bytes =
+      double(width * height) *
+      double(film_layout(scene, airlight::estimator_for(scene.render)).bytes_a_pixel());
+  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  constexpr double gib = 1 << 30;
+  if (bytes > memory)
+    throw Error(fmt::format(
+        "{} x {} pixels need {:.1f} GiB, and this machine has {:.1f}; accepted: a smaller --size, "
+        "or a --crop of it",
+        width, height, bytes / gib, memory / gib));
+}
+
 /// Which picture of a run of frames one is.
 struct Turn {
   std::string name;  ///< for the progress line; empty for a picture by itself
@@ -126,6 +145,7 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
   // The camera sees no background; what it sends elsewhere stays.
   if (manner.alpha)
     scene.background_image = airlight::Image(scene.resolution.width, scene.resolution.height);
+  check_memory(scene, manner.crop);
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
   if (!manner.quiet && turn.is_first) SceneFlags::tell(scene);

@@ -13,7 +13,6 @@
 /// (a std::variant of described structs, told apart in a file by the key "type"). Its default is
 /// the value of a default-constructed struct.
 #include <limits>
-#include <span>
 
 #include "math/simd.h"
 
