@@ -146,8 +146,8 @@ TEST(Settings, paths_go_on_from_samples_of_the_whole_volume_only) {
               s.render.continuation = Continuation::whole_volume;
             }),
             "render.continuation = \"whole_volume\" goes on from samples of whole_volume, which "
-            "estimator reds does not draw; accepted: \"distance\", or an estimator such as rewv or "
-            "mcwvds");
+            "estimator reds does not draw; accepted: \"distance\", \"sample\", or an estimator such "
+            "as rewv or mcwvds");
 }
 
 TEST(Settings, the_closed_form_is_for_parallel_light_among_opaque_objects) {

@@ -156,7 +156,9 @@ TEST(Resume, of_a_render_stopped_anywhere_gives_what_it_would_have_been) {
       const Rendered part = render(scene, folder / "a.ckpt", control);
       complete = part.complete;
       EXPECT_LE(part.samples, 300);
-      if (complete) EXPECT_LT(largest_difference(part.film, whole), rounding);
+      if (complete) {
+        EXPECT_LT(largest_difference(part.film, whole), rounding);
+      }
     }
     EXPECT_GT(stops, 3);
   }

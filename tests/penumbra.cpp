@@ -133,7 +133,7 @@ TEST_P(Penumbra, in_fog_is_the_mean_over_the_disc) {
         settings.estimator = std::string(placement) + "+" + form;
         settings.isa = kernel->isa;
         settings.spp = 64;
-        constexpr int seeds = 200;
+        constexpr int seeds = 240;
         Renderer renderer(scene);
         std::vector<double> plain, analytic, occluded, unoccluded;
         for (int seed = 0; seed < seeds; ++seed) {
