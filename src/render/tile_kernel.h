@@ -202,7 +202,9 @@ class TileKernel {
     std::uint32_t held = 0;
     for (std::uint32_t i = tile_.samples.first; i < end;) {
       const std::uint32_t index = i / frame_.samples_per_ray;
-      const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_ray);
+      // Through the centre, one walk along the surfaces serves all.
+      const std::uint32_t stop = std::min(
+          end, frame_.through_centre ? i + longest_run : (index + 1) * frame_.samples_per_ray);
       camera_ray(x, y, background, index, {i, stop - i}, sampler, active, i == tile_.samples.first);
       held += stop - i;
       i = stop;
@@ -228,12 +230,12 @@ class TileKernel {
     SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler, surface_);
     walk.background = background;
     walk.along(origin, direction, inside, samples, active);
-    watcher_.camera_ray(walk, direction, samples);
 
     const F n(Scalar<F>(samples.count));
     Halves<F>& ungrouped = sums_.groups[Frame::ungrouped].in_scatter;
-    for (std::uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
-      const auto half = std::size_t(half_of(frame_.halve_by_ray ? index : i));
+    const std::uint32_t end = samples.first + samples.count;
+    for (std::uint32_t i = samples.first; i < end; ++i) {
+      const auto half = std::size_t(half_of(frame_.halve_by_ray ? i / frame_.samples_per_ray : i));
       ++sums_.samples[half];
       ungrouped[half].plain += walk.emission;
     }
@@ -244,14 +246,29 @@ class TileKernel {
     sums_.normal = sums_.normal + walk.normal * n;
     if (is_first) sums_.depth = walk.depth, sums_.object = walk.object;
 
-    if (!medium_) return;
-    MediumRay<F> ray = medium_ray({origin, direction, walk.t_end}, local, inside.hull());
-    ray.active = active & ray.active;
-    ray.index = index;
-    ray.filtered = walk.filtered;
+    MediumRay<F> ray;
+    ray.direction = direction;
+    ray.active = F(0) > F(0);
+    if (medium_) {
+      ray = medium_ray({origin, direction, walk.t_end}, local, inside.hull());
+      ray.active = active & ray.active;
+      ray.filtered = walk.filtered;
+    }
+    for (std::uint32_t i = samples.first; i < end;) {
+      ray.index = i / frame_.samples_per_ray;
+      const std::uint32_t stop = std::min(end, (ray.index + 1) * frame_.samples_per_ray);
+      in_scatter(walk, ray, {i, stop - i}, sampler);
+      i = stop;
+    }
+  }
+
+  /// Adds what all lights scatter into a camera ray, from the samples that share directions to
+  /// discs.
+  void in_scatter(const SurfaceWalk<F, Space>& walk, const MediumRay<F>& ray, SampleRange samples,
+                  const Sampler<F>& sampler) noexcept {
+    watcher_.camera_ray(walk, ray.direction, samples);
     if (!any(ray.active)) return;
     watcher_.medium_ray(ray);
-
     const auto add = [&](int i, const LightShare<F>* share) {
       Halves<F>& sums = sums_.groups[std::size_t(frame_.light_group[std::size_t(i)])].in_scatter;
       std::visit(
