@@ -4,13 +4,19 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <chrono>
+#include <thread>
+#include <vector>
 
 #include "error.h"
 #include "image/read_file.h"
 #include "support/scratch.h"
 
 using namespace airlight;
+using testing::AnyOf;
 using testing::EndsWith;
 
 namespace {
@@ -139,6 +145,40 @@ TEST(AtomicFile, respects_what_is_read_only) {
   ::chmod(folder.path().c_str(), 0555);
   EXPECT_THAT(error_of([&] { check_writable(folder / "b.txt"); }), EndsWith("Permission denied"));
   ::chmod(folder.path().c_str(), 0755);
+}
+
+TEST(AtomicFile, leaves_nothing_after_the_next_file_whenever_it_was_killed) {
+  const ScratchFolder folder;
+  const std::filesystem::path target = folder / "a.txt";
+  for (int life = 0; life < 100; ++life) {
+    const pid_t child = ::fork();
+    if (child == 0)
+      while (true) write_text(target, "some text");
+    std::this_thread::sleep_for(std::chrono::microseconds(1000 + 37 * life));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    if (std::filesystem::exists(target)) {
+      EXPECT_EQ(read_text(target), "some text");
+    }
+    EXPECT_LE(folder.files(), 2U);
+  }
+  write_text(target, "the last");
+  EXPECT_EQ(read_text(target), "the last");
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(AtomicFile, is_one_of_those_that_are_written_at_once) {
+  const ScratchFolder folder;
+  const std::filesystem::path target = folder / "a.txt";
+  std::vector<std::jthread> writers;
+  for (const char* text : {"one", "two", "three"})
+    writers.emplace_back([&target, text] {
+      for (int i = 0; i < 200; ++i)
+        EXPECT_EQ(error_of([&] { write_text(target, text); }), "no error");
+    });
+  writers.clear();
+  EXPECT_THAT(read_text(target), AnyOf("one", "two", "three"));
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(AtomicFile, checking_leaves_nothing_behind) {

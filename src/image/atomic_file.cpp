@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <utility>
 
 #include "error.h"
@@ -39,15 +40,14 @@ std::filesystem::path follow_links(std::filesystem::path path) {
   return path;
 }
 
-/// Tries create(path) with new names beside the target until one is free; `path` becomes that name.
-template <class Create>
-int create_beside(const std::filesystem::path& target, std::filesystem::path& path,
-                  Create&& create) {
+/// A file with a new name beside the target; `path` becomes that name, empty if there can be none.
+int create_beside(const std::filesystem::path& target, std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   while (true) {
     path = target.parent_path() / fmt::format(".airlight-{}-{}.tmp", ::getpid(), counter++);
-    const int result = create(path);
-    if (result >= 0 || errno != EEXIST) return result;
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) path.clear();
+    if (file >= 0 || errno != EEXIST) return file;
   }
 }
 
@@ -59,10 +59,24 @@ int create_unnamed(const std::filesystem::path& target) {
   return ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
 }
 
-/// Gives it its name.
-int link_unnamed(int file, const std::filesystem::path& path) {
-  return ::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", file).c_str(), AT_FDCWD, path.c_str(),
-                  AT_SYMLINK_FOLLOW);
+/// Gives an unnamed file its name, in place of an older file of that name. No call of the system
+/// does both at once: between the two the file stands under a name that belongs to the target, so
+/// that what a program killed just there leaves behind is gone with the next file of that name.
+/// Returns 0, or −1 with errno.
+int name_unnamed(int file, const std::filesystem::path& target) {
+  const std::string source = fmt::format("/proc/self/fd/{}", file);
+  const auto link = [&](const std::filesystem::path& path) {
+    return ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW);
+  };
+  if (link(target) == 0) return 0;
+  if (errno != EEXIST) return -1;
+  const std::filesystem::path between =
+      target.parent_path() /
+      fmt::format(".airlight-{:016x}.tmp", std::hash<std::string>()(target.filename()));
+  while (link(between) != 0)
+    if (errno != EEXIST || (::unlink(between.c_str()) != 0 && errno != ENOENT)) return -1;
+  // Where it is gone, another program has replaced it by its own, as if that had come after it.
+  return ::rename(between.c_str(), target.c_str()) == 0 || errno == ENOENT ? 0 : -1;
 }
 
 }  // namespace
@@ -82,11 +96,7 @@ AtomicFile::AtomicFile(std::filesystem::path target)
   } else {
     file_ = create_unnamed(final_);
     unnamed_ = file_ >= 0;
-    if (!unnamed_)
-      file_ = create_beside(final_, temporary_, [](const std::filesystem::path& path) {
-        return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      });
-    if (file_ < 0) temporary_.clear();
+    if (!unnamed_) file_ = create_beside(final_, temporary_);
     if (file_ >= 0 && exists) ::fchmod(file_, status.st_mode & 07777);
   }
   if (file_ < 0) throw unwritable(target_, errno);
@@ -121,12 +131,7 @@ void AtomicFile::seek(std::uint64_t position) {
 void AtomicFile::commit() {
   flush();
   if ((unnamed_ || !temporary_.empty()) && ::fsync(file_) != 0) fail(errno);
-  if (unnamed_) {
-    const int linked = create_beside(final_, temporary_, [this](const std::filesystem::path& path) {
-      return link_unnamed(file_, path);
-    });
-    if (linked < 0) temporary_.clear(), fail(errno);
-  }
+  if (unnamed_ && name_unnamed(file_, final_) != 0) fail(errno);
   const int file = std::exchange(file_, -1);
   if (::close(file) != 0) fail(errno);
   if (temporary_.empty()) return;

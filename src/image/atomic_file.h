@@ -12,7 +12,8 @@ namespace airlight {
 /// A file that appears whole or not at all. Bytes go to a temporary file beside the target, which
 /// `commit` renames over it; without a commit the temporary file is removed and an old target stays
 /// as it was. Where the file system can, the temporary file has no name: a program that is killed
-/// leaves nothing behind. Symbolic links are followed. A target that is no regular file
+/// leaves nothing behind, or at worst a whole file that the next one for this target replaces.
+/// Symbolic links are followed. A target that is no regular file
 /// (/dev/stdout, a pipe) is written directly. Every failure is an Error that names the target:
 /// "out.png: cannot be written: No space left on device".
 class AtomicFile {
