@@ -1,21 +1,26 @@
 #pragma once
-#include <cstdlib>
+#include <sys/mman.h>
+
 #include <new>
 
 namespace airlight {
 
-/// Memory that is zero without being written: a system that hands out fresh pages zeroes each when it
-/// is first touched, by the worker that renders there and not by the one that asks for it.
+/// Memory that is zero without being written: the system hands out fresh pages and zeroes each when
+/// it is first touched, by the worker that renders there and not by the one that asks for it. Large
+/// pages where it has them: the system serves a process's page faults one after the other, for
+/// which the workers would wait.
 template <class T>
 struct ZeroedMemory {
   using value_type = T;
 
   T* allocate(std::size_t count) {
-    void* memory = std::calloc(count, sizeof(T));
-    if (!memory) throw std::bad_alloc();
+    void* memory = ::mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    ::madvise(memory, count * sizeof(T), MADV_HUGEPAGE);
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
+  void deallocate(T* memory, std::size_t count) noexcept { ::munmap(memory, count * sizeof(T)); }
   void construct(T*) noexcept {}  // it is zero
   void construct(T* place, T value) noexcept { *place = value; }
 
