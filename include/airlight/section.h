@@ -80,11 +80,11 @@ struct Section {
         return pick.of({member(trapezoids[0]), member(trapezoids[1]), member(trapezoids[2])});
       };
       drawn.total = of([](const auto& t) { return t.total; });
-      for (int i = 0; i <= 1 || i <= way.segments; ++i)  // one segment at least
-        drawn.depth_at[i] = of([i](const auto& t) { return t.depth_at[i]; });
-      for (int i = 0; i < 1 || i < way.segments; ++i) {
-        drawn.integral[i] = of([i](const auto& t) { return t.integral[i]; });
-        drawn.drop[i] = of([i](const auto& t) { return t.drop[i]; });
+      for (int i = 0; i < 1 || i < way.segments; ++i) {  // one segment at least
+        using Inverse = typename Trapezoids<F, max_segments>::Inverse;
+        for (F Inverse::*number :
+             {&Inverse::begin, &Inverse::stretch, &Inverse::offset, &Inverse::rate})
+          drawn.inverse[i].*number = of([&](const auto& t) { return t.inverse[i].*number; });
       }
       return drawn.sample(way, pick.u);
     }

@@ -88,11 +88,21 @@ struct WayOut {
 /// underflow.
 template <Real F, int max_segments>
 struct Trapezoids {
-  F depth_at[max_segments + 1];  ///< optical depth at the nodes above `depth`, >= 0
-  F integral[max_segments];      ///< of transmittance over a segment, relative to e^{−depth}  [m]
-  F drop[max_segments];  ///< 1 − e^{−y}, y the difference of the depths of a segment's ends
-  F total = F(0);        ///< their sum, in [0, t_max]  [m]
-  F depth = F(0);        ///< the smallest optical depth: the way is concave, so that of an end
+  F integral[max_segments];  ///< of transmittance over a segment, relative to e^{−depth}  [m]
+  F total = F(0);            ///< their sum, in [0, t_max]  [m]
+  F depth = F(0);            ///< the smallest optical depth: the way is concave, so that of an end
+
+  /// The distribution function inverted within a segment, for x in [0, total]:
+  ///
+  ///     t = near − stretch log(1 − (offset + rate x))
+  ///
+  /// from `near`, its end of smaller depth, where nothing can overflow.
+  struct Inverse {
+    F begin;    ///< the x from which on the segment is meant; beyond all in an empty one
+    F stretch;  ///< the segment's length over its depth, negative from its last point back  [m]
+    F offset, rate;
+  };
+  Inverse inverse[max_segments];
 
   Trapezoids() = default;
 
@@ -102,20 +112,31 @@ struct Trapezoids {
   Trapezoids(const WayOut<F, max_segments>& way, F sigma_t) noexcept {
     const int n = way.segments;
     depth = sigma_t * min(way.length[0], way.length[n]);
+    F depth_at[max_segments + 1];  // above `depth`
     F transmittance[max_segments + 1];
     for (int i = 0; i <= n; ++i) {
       depth_at[i] = max(fma(sigma_t, way.length[i], -depth), F(0));
       transmittance[i] = exp(-depth_at[i]);
     }
     for (int i = 0; i < n; ++i) {
-      const F y = abs(depth_at[i + 1] - depth_at[i]);
+      // An even segment is as good as one that loses next to nothing, and needs no other formula.
+      const F y = max(abs(depth_at[i + 1] - depth_at[i]), F(1e-15f));
       const F high = max(transmittance[i], transmittance[i + 1]);
       const F low = min(transmittance[i], transmittance[i + 1]);
       const Mask<F> shallow = y < F(1);
       const F phi = phi_below_one(min(y, F(1)));
       const F mean = select(shallow, high * phi, (high - low) / max(y, F(1)));
-      integral[i] = (way.t[i + 1] - way.t[i]) * mean;
-      drop[i] = select(shallow, y * phi, F(1) - low / select(high > F(0), high, F(1)));
+      const F drop = select(shallow, y * phi, F(1) - low / select(high > F(0), high, F(1)));
+      const F width = way.t[i + 1] - way.t[i];
+      integral[i] = width * mean;
+      const Mask<F> empty = !(integral[i] > F(0));
+      const Mask<F> rising = depth_at[i + 1] >= depth_at[i];
+      const F rate = drop / select(empty, F(1), integral[i]);
+      Inverse& to = inverse[i];
+      to.begin = select(empty, F(Scalar<F>(far_away)), total);
+      to.stretch = select(rising, width, -width) / y;
+      to.offset = rate * select(rising, -total, total + integral[i]);
+      to.rate = select(rising, rate, -rate);
       total = total + integral[i];
     }
   }
@@ -124,31 +145,23 @@ struct Trapezoids {
   F transmittance_integral() const noexcept { return exp(-depth) * total; }
 
   /// A distance with density e^{−σ length} / T: the distribution function inverted, monotone in u
-  /// in [0, 1] so that strata stay strata (Velinov 2021 section 5). Within a segment the inverse
-  /// starts from the end of smaller depth, where nothing can overflow.  CDF(sample(u)) − u < 2e-11
-  /// in double, 3e-6 in float where the depth is below 20.
+  /// in [0, 1] so that strata stay strata (Velinov 2021 section 5).  CDF(sample(u)) − u < 2e-11 in
+  /// double, 3e-6 in float where the depth is below 20.
   AIRLIGHT_INLINE F sample(const WayOut<F, max_segments>& way, F u) const noexcept {
     const F x = u * total;
-    F below = F(0), seen = F(0);
     F t0 = way.t[0], t1 = way.t[1];
-    F depth0 = depth_at[0], depth1 = depth_at[1], here = integral[0], fall = drop[0];
+    F stretch = inverse[0].stretch, offset = inverse[0].offset, rate = inverse[0].rate;
     for (int i = 1; i < max_segments && i < way.segments; ++i) {
-      seen = seen + integral[i - 1];
-      const Mask<F> beyond = (x >= seen) & (integral[i] > F(0));
-      below = select(beyond, seen, below);
-      here = select(beyond, integral[i], here);
-      fall = select(beyond, drop[i], fall);
+      const Mask<F> beyond = x >= inverse[i].begin;
       t0 = select(beyond, way.t[i], t0);
       t1 = select(beyond, way.t[i + 1], t1);
-      depth0 = select(beyond, depth_at[i], depth0);
-      depth1 = select(beyond, depth_at[i + 1], depth1);
+      stretch = select(beyond, inverse[i].stretch, stretch);
+      offset = select(beyond, inverse[i].offset, offset);
+      rate = select(beyond, inverse[i].rate, rate);
     }
-    const F v = clamp((x - below) / select(here > F(0), here, F(1)), F(0), F(1));
-    const Mask<F> rising = depth1 >= depth0;
-    const F from_low =
-        exponential_fraction(abs(depth1 - depth0), fall, select(rising, v, F(1) - v));
-    const F g = select(rising, from_low, F(1) - from_low);
-    return clamp(fma(g, t1 - t0, t0), t0, t1);
+    const F z = clamp(fma(rate, x, offset), F(0), F(1));
+    const F near = select(stretch >= F(0), t0, t1);
+    return clamp(fma(stretch, -log1p_minus(z), near), t0, t1);
   }
 
   /// The density of `sample` at a point whose way has this length.  [1/m]

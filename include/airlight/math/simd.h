@@ -222,6 +222,15 @@ F unit_interval(UInt<F> x) noexcept {
   }
 }
 
+/// x = 2^e (1 + f) for a normal x > 0, with 1 + f in [√½, √2). Returns e.
+inline FloatBatch split_at_sqrt_half(FloatBatch x, FloatBatch& f) noexcept {
+  using Int = xsimd::batch<std::int32_t>;
+  const Int sqrt_half(0x3f3504f3);  // the bits of √½
+  const Int bits = xsimd::bitwise_cast<Int>(x), e = (bits - sqrt_half) >> 23;
+  f = xsimd::bitwise_cast<FloatBatch>(bits - (e << 23)) - FloatBatch(1.f);
+  return xsimd::to_float(e);
+}
+
 /// Sums over lanes in a fixed order.
 template <Real F>
 double sum_lanes(F x) noexcept {

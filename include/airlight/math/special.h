@@ -48,15 +48,24 @@ AIRLIGHT_INLINE F one_minus_exp(F y) noexcept {
   return select(y < F(1), y * phi_below_one(y), F(1) - exp(-y));
 }
 
-/// log(1 − z) for z in [0, 1], finite also at z = 1: the log of the smallest normal number there.
-/// The batch corrects the rounding of 1 − z after Kahan, which holds only without -ffast-math.
+/// log(1 − z) for z in [0, 1], also where z is tiny, and finite at z = 1: the log of the smallest
+/// normal number there. Relative error 2e-7 in float.
 template <Real F>
 AIRLIGHT_INLINE F log1p_minus(F z) noexcept {
   if constexpr (std::floating_point<F>) {
     return std::log1p(-min(z, F(1) - std::numeric_limits<F>::epsilon() / 2));
   } else {
-    const F r = F(1) - z;
-    return select(r == F(1), -z, log(max(r, F(1e-38f))) * z / max(F(1) - r, F(1e-38f)));
+    // 1 − z = 2^e (1 + f), f in [√½ − 1, √2 − 1]. For e = 0, f is −z itself and not what the
+    // rounding of 1 − z leaves of it.
+    F f;
+    const F e = split_at_sqrt_half(max(F(1) - z, F(std::numeric_limits<float>::min())), f);
+    f = select(e == F(0), -z, f);
+    // log(1 + f) = f − f²/2 + s (f²/2 + R(s²)), s = f / (2 + f); R's coefficients are fdlibm's.
+    const F s = f / (F(2) + f), s2 = s * s, half_square = F(0.5f) * f * f;
+    F r = fma(s2, F(0.24279078841f), F(0.28498786688f));
+    r = fma(s2, r, F(0.40000972152f));
+    r = fma(s2, r, F(0.66666662693f)) * s2;
+    return fma(e, F(0.693147180560f), f - (half_square - s * (half_square + r)));
   }
 }
 
@@ -66,20 +75,9 @@ AIRLIGHT_INLINE F log1p_minus(F z) noexcept {
 ///     g = −log(1 − v drop) / y
 template <Real F>
 AIRLIGHT_INLINE F exponential_fraction(F y, F drop, F v) noexcept {
-  // Below this depth the quotient divides rounding by y; the series is exact to y^2.
-  const F small(std::same_as<F, double> ? 1e-5 : 2e-3);
-  const F w = F(1) - v;
-  const F series = v * (F(1) - y * w * F(0.5) + y * y * w * (w - v) * F(1. / 6));
-  const F z = min(v * drop, F(1)), steep = max(y, small);
-  F inverse;
-  if constexpr (std::floating_point<F>) {
-    inverse = -log1p_minus(z) / steep;
-  } else {  // the same with one division
-    const F r = F(1) - z, lost = F(1) - r;
-    inverse = select(lost == F(0), z, -log(max(r, F(1e-38f))) * z) /
-              (select(lost == F(0), F(1), lost) * steep);
-  }
-  return clamp(select(y < small, series, inverse), F(0), F(1));
+  const F flat(std::same_as<F, double> ? 1e-15 : 1e-7);  // e^{−y} is 1 to rounding
+  const F curved = -log1p_minus(min(v * drop, F(1))) / max(y, flat);
+  return select(y < flat, v, min(curved, F(1)));
 }
 
 template <Real F>
