@@ -1,5 +1,6 @@
 #pragma once
 /// How a tile is rendered, over a real type: one lane a pixel. Compiled once for each arithmetic.
+#include <algorithm>
 #include <bit>
 #include <type_traits>
 
@@ -42,17 +43,27 @@ struct PacketSums {
         layout, [&](int, F total, const int*, F) { poison = fma(total, F(0), poison); },
         [&](int, F feature) { poison = fma(feature, F(0), poison); });
     const Mask<F> good = active & (poison == F(0));
-    const F none(0);
+    // Sums that are still zero are written, not read: fresh memory that is read first costs the
+    // system two page faults.
+    std::uint32_t gathered = 0;
+    for (int i = 0; i < lanes<F>; ++i)
+      gathered |= to.samples[i] | to.samples[i + film_block::pixels];
+    const auto add = [&](auto* numbers, int row, F values) {
+      auto* to_row = numbers + row * film_block::pixels;
+      alignas(64) Scalar<F> added[lanes<F>];
+      store(select(good, values, F(0)), added);
+      if (gathered == 0)
+        std::copy_n(added, lanes<F>, to_row);
+      else
+        for (int i = 0; i < lanes<F>; ++i) to_row[i] += added[i];
+    };
     for_each(
         layout,
         [&](int row, F total, const int* second_row, F second) {
-          add_to(to.sums + row * film_block::pixels, select(good, total, none));
-          if (second_row)
-            add_to(to.features + *second_row * film_block::pixels, select(good, second, none));
+          add(to.sums, row, total);
+          if (second_row) add(to.features, *second_row, second);
         },
-        [&](int row, F feature) {
-          add_to(to.features + row * film_block::pixels, select(good, feature, none));
-        });
+        [&](int row, F feature) { add(to.features, row, feature); });
     const std::uint32_t kept = bits<F>(good);
     alignas(64) Scalar<F> depths[lanes<F>], objects[lanes<F>];
     store(depth, depths), store(object, objects);
@@ -95,13 +106,6 @@ struct PacketSums {
       feature(FilmLayout::albedo + c, albedo[c]);
       feature(FilmLayout::normal + c, normal[c]);
     }
-  }
-
-  template <class T>
-  static void add_to(T* row, F values) noexcept {
-    alignas(64) Scalar<F> numbers[lanes<F>];
-    store(values, numbers);
-    for (int i = 0; i < lanes<F>; ++i) row[i] += T(numbers[i]);
   }
 };
 

@@ -81,12 +81,19 @@ class Stream {
   /// Point i of a stratified sequence in [0, 1): any aligned block of 2^k indices has one point in
   /// each interval of length 2^-k.
   AIRLIGHT_INLINE F one(std::uint32_t index) const noexcept {
+    return unit_interval<F>(bits(index));
+  }
+  /// The bits that it is made of, the upper 24: numbers in the same order.
+  AIRLIGHT_INLINE UInt<F> bits(std::uint32_t index) const noexcept {
     // reverse(index) is the van der Corput point; its scramble reverses it once more.
-    return scramble(UInt<F>(index), one_);
+    return scrambled(UInt<F>(index), one_);
   }
   /// Of another index in each lane, shuffled so that streams do not move together.
   AIRLIGHT_INLINE F one_each(UInt<F> index) const noexcept {
-    return scramble(owen_scramble(index, shuffle_), one_);
+    return unit_interval<F>(bits_each(index));
+  }
+  AIRLIGHT_INLINE UInt<F> bits_each(UInt<F> index) const noexcept {
+    return scrambled(owen_scramble(index, shuffle_), one_);
   }
 
   /// Point i of a (0, 2)-sequence in the square, shuffled so that streams do not move together.
@@ -100,8 +107,11 @@ class Stream {
   }
 
  private:
+  AIRLIGHT_INLINE static UInt<F> scrambled(UInt<F> reversed, UInt<F> seed) noexcept {
+    return reverse_bits(laine_karras(reversed, seed));
+  }
   AIRLIGHT_INLINE static F scramble(UInt<F> reversed, UInt<F> seed) noexcept {
-    return unit_interval<F>(reverse_bits(laine_karras(reversed, seed)));
+    return unit_interval<F>(scrambled(reversed, seed));
   }
 
   /// The shuffle keeps to the halves: its last bit is such that the parity of these bits is that of
@@ -146,6 +156,7 @@ struct PathSampler {
     UInt<F> index;
 
     F one(std::uint32_t) const noexcept { return stream.one_each(index); }
+    UInt<F> bits(std::uint32_t) const noexcept { return stream.bits_each(index); }
     Vec2<F> two(std::uint32_t) const noexcept { return stream.two_each(index); }
   };
 
@@ -163,6 +174,7 @@ struct PathSampler {
 template <class S, class F>
 concept DrawsPoints = requires(const S sampler) {
   { sampler.stream(0u).one(0u) } -> std::same_as<F>;
+  { sampler.stream(0u).bits(0u) } -> std::same_as<UInt<F>>;
   { sampler.stream(0u).two(0u) } -> std::same_as<Vec2<F>>;
   { sampler.two(0u, 0u) } -> std::same_as<Vec2<F>>;
 };

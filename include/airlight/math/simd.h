@@ -78,6 +78,8 @@ template <std::floating_point F>
 F fma(F a, F b, F c) noexcept {
   return a * b + c;  // contracted where the machine has it; std::fma is a call where it has not
 }
+constexpr std::uint32_t min(std::uint32_t a, std::uint32_t b) noexcept { return a < b ? a : b; }
+constexpr std::uint32_t max(std::uint32_t a, std::uint32_t b) noexcept { return a > b ? a : b; }
 inline bool any(bool mask) noexcept { return mask; }
 inline bool all(bool mask) noexcept { return mask; }
 template <std::floating_point F>
@@ -104,6 +106,12 @@ inline FloatBatch select(Mask<FloatBatch> condition, FloatBatch yes, FloatBatch 
 }
 inline FloatBatch min(FloatBatch a, FloatBatch b) noexcept { return xsimd::min(a, b); }
 inline FloatBatch max(FloatBatch a, FloatBatch b) noexcept { return xsimd::max(a, b); }
+inline UInt<FloatBatch> min(UInt<FloatBatch> a, UInt<FloatBatch> b) noexcept {
+  return xsimd::min(a, b);
+}
+inline UInt<FloatBatch> max(UInt<FloatBatch> a, UInt<FloatBatch> b) noexcept {
+  return xsimd::max(a, b);
+}
 inline FloatBatch fma(FloatBatch a, FloatBatch b, FloatBatch c) noexcept {
   return xsimd::fma(a, b, c);
 }
@@ -197,6 +205,15 @@ UInt<F> select_bits(Mask<F> condition, UInt<F> yes, UInt<F> no) noexcept {
   else
     return xsimd::bitwise_cast<UInt<F>>(
         xsimd::select(condition, xsimd::bitwise_cast<F>(yes), xsimd::bitwise_cast<F>(no)));
+}
+
+/// Whether the lowest bit is set, lane by lane.
+template <Real F>
+Mask<F> is_odd(UInt<F> x) noexcept {
+  if constexpr (lanes<F> == 1)
+    return (x & 1u) != 0;
+  else  // by the sign of a float, which every instruction set can test
+    return xsimd::bitwise_cast<F>((x << 31) | UInt<F>(0x3f800000u)) < F(0);
 }
 
 /// Writes `lanes<F>` integers to memory: -1 where the mask is set, else 0.
