@@ -87,6 +87,16 @@ std::size_t key_at(const std::vector<double>& times, double time) {
   return after == times.begin() ? 0 : std::size_t(after - times.begin()) - 1;
 }
 
+/// ", between the keys at 3:8 and 3:13".
+std::string between(const Track& track, std::size_t key) {
+  const auto line_and_column = [&](std::size_t i) {
+    const Place& place = track.values().element(i).value().place;
+    return place.is_override() ? place.text() : fmt::format("{}:{}", place.line, place.column);
+  };
+  return fmt::format(", between the keys at {} and {}", line_and_column(key),
+                     line_and_column(key + 1));
+}
+
 /// What a track's value is at a time, in frames.
 Value value_at(const Track& track, double time) {
   const std::size_t key = key_at(track.times, time);
@@ -101,11 +111,14 @@ Value value_at(const Track& track, double time) {
         bool(track.values().element(i).value().array()) != bool(result.array()))
       track.values().element(i).refuse("is of another kind than the other keys' values");
   }
+  const bool is_held = time <= track.times[0] || key + 1 == track.times.size();
+  const std::string moment = fmt::format("at frame {}", time) +
+                             (is_held || time == track.times[key] ? "" : between(track, key));
   const auto component = [&](std::size_t c, Value& value) {
     std::vector<double> y;
     for (const std::vector<double>& n : numbers) y.push_back(n[c]);
-    value.between_keys = true;
-    if (time <= track.times[0] || key + 1 == y.size())
+    value.moment = moment;
+    if (is_held)
       value.data = y[key];
     else if (track.document.interpolation == Interpolation::smooth)
       value.data = smooth(track.times, y, key, time);

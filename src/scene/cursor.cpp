@@ -23,7 +23,9 @@ std::string Cursor::path_of(const std::string& key) const {
 }
 
 void Cursor::refuse(std::string_view what) const {
-  throw Error(fmt::format("{}: {} = {} {}", value_->place.text(), path_, value_->text(), what));
+  const std::string& moment = value_->moment;
+  throw Error(fmt::format("{}: {} = {}{} {}", value_->place.text(), path_, value_->text(),
+                          moment.empty() ? "" : ", " + moment + ",", what));
 }
 
 void Cursor::complain(std::string_view what, const std::vector<std::string>& about) const {

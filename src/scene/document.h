@@ -32,10 +32,12 @@ struct Value {
   };
 
   std::variant<Table, Array, std::string, double, std::int64_t, bool, Date> data;
-  Place place;                ///< of the value
-  Place key_place;            ///< of its key, if it has one
-  bool is_sparse = false;     ///< a table of some elements of a list, by their indices
-  bool between_keys = false;  ///< worked out from an animation: a whole number is the nearest one
+  Place place;             ///< of the value
+  Place key_place;         ///< of its key, if it has one
+  bool is_sparse = false;  ///< a table of some elements of a list, by their indices
+  /// Of a number worked out from an animation, for errors: "at frame 17, between the keys at 3:8
+  /// and 3:13". A whole number is the nearest one.
+  std::string moment = {};
 
   const Table* table() const { return std::get_if<Table>(&data); }
   const Array* array() const { return std::get_if<Array>(&data); }

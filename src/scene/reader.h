@@ -42,7 +42,7 @@ inline double read_number(const Cursor& at, const Range& range, const std::strin
 }
 
 inline std::int64_t read_whole(const Cursor& at, const Range& range, const std::string& wanted) {
-  if (at.value().between_keys) return std::llround(read_number(at, range, wanted));
+  if (!at.value().moment.empty()) return std::llround(read_number(at, range, wanted));
   const auto* number = std::get_if<std::int64_t>(&at.value().data);
   if (!number) at.refuse("is not a whole number: " + wanted);
   if (!range.contains(double(*number))) at.refuse("is out of range: " + wanted);
