@@ -31,7 +31,9 @@ void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without
           [this](const std::vector<std::string>& assignments) {
             for (const std::string& assignment : assignments) changes_.emplace_back(assignment);
           },
-          "changes a value of the scene: PATH=VALUE, as in lights.0.irradiance=3; may be repeated")
+          "changes a value of the scene: PATH=VALUE, as in lights.0.irradiance=3; may be repeated; "
+          "files "
+          "start at the current folder")
       ->type_name("")
       ->allow_extra_args(false)
       ->group("Scene");
@@ -53,11 +55,10 @@ void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without
   verb.add_option_function<std::string>(
           "--background",
           [this](const std::string& file) {
-            changes_.emplace_back("background_image",
-                                  airlight::toml_text(std::filesystem::absolute(file).string()),
+            changes_.emplace_back("background_image", airlight::toml_text(file),
                                   "--background " + file);
           },
-          "a picture that stands behind everything, of the picture's size")
+          "a picture that stands behind everything, of the picture's proportions")
       ->type_name("FILE")
       ->take_last()
       ->group("Scene");

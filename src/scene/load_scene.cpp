@@ -48,11 +48,11 @@ class SceneFile::Content {
     }
     if (extension != ".obj" && extension != ".gltf" && extension != ".glb")
       throw Error(path.string() + ": is no scene by its name; accepted: .glb, .gltf, .obj, .toml");
-    model_ = path.filename();
+    model_ = files_.folder / path.filename();
     name_ = path.string();
     const ModelFile& file = files_.open(*model_);
     const auto begin = [&](const Model& model) {
-      stand_in_.emplace(model, model_->string());
+      stand_in_.emplace(model, model_->filename().string());
       document_ = parse_document(stand_in_->toml(model), name_);
     };
     moves_ = !file.still();
@@ -89,8 +89,8 @@ class SceneFile::Content {
  private:
   Value document_;
   Files files_;
-  std::string name_;                            ///< of a model, for errors
-  std::optional<std::filesystem::path> model_;  ///< in the folder of the files
+  std::string name_;  ///< of a model, for errors
+  std::optional<std::filesystem::path> model_;
   std::optional<StandIn> stand_in_;
   bool moves_ = false;
 };

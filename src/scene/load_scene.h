@@ -9,6 +9,7 @@
 namespace airlight {
 
 /// Loads a scene file (.toml) or a model (.obj, .gltf, .glb), after changing values by their paths.
+/// Files that the scene names lie beside it, those that a change names start at the current folder.
 /// What a model says nothing about (camera, light, fog) is made up and told in `assumptions`. If
 /// something moves, the scene is that of one frame, render.frame. Throws Error, one line that says
 /// where, what was found and what is accepted.

@@ -57,7 +57,8 @@ std::vector<Chapter> scene_reference() {
   return {
       {"Scene file",
        "TOML, in SI units; up is +y. A key that is not listed is an error. Every value can be "
-       "changed from the command line by its path: -D lights.0.irradiance=3.",
+       "changed from the command line by its path: -D lights.0.irradiance=3. Files that such a "
+       "change names start at the current folder.",
        {table<SceneDocument>("top level", "what stands before the first table, and the tables"),
         table<Camera>("[camera]", "a pinhole camera, anywhere: outside, on or inside the medium"),
         table<Resolution>("[image]", "the size of the picture"),

@@ -28,12 +28,12 @@ Shapes shape_of(const ConvexDocument& document, const Cursor& at, const Files&) 
 Shapes shape_of(const Unbounded& unbounded, const Cursor&, const Files&) { return unbounded; }
 
 Shapes shape_of(const SolidDocument& document, const Cursor& at, const Files& files) {
+  const Cursor at_file = at.at_or_here("file");
   const auto load = [&] {
     try {
-      return files.model(*document.file);
+      return files.model(files.path(*document.file, at_file));
     } catch (const Error& error) {
-      at.at_or_here("file").complain(std::string("names a model that is not to be had: ") +
-                                     error.what());
+      at_file.complain(std::string("names a model that is not to be had: ") + error.what());
     }
   };
   const Model model = load();
@@ -53,7 +53,7 @@ Shapes shape_of(const SolidDocument& document, const Cursor& at, const Files& fi
   try {
     return Solid{close_mesh(points, triangles)};
   } catch (const Error& error) {
-    at.at_or_here("file").refuse(error.what());
+    at_file.refuse(error.what());
   }
 }
 
