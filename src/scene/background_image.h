@@ -6,8 +6,10 @@
 
 namespace airlight {
 
-/// Reads a picture that stands behind a scene, as linear light. Throws Error, at the key, if it
-/// cannot be read, is not of the given size or is not finite everywhere.
-Image load_background_image(const std::filesystem::path& path, Resolution size, const Cursor& at);
+/// Reads a picture that stands behind a scene, as linear light, and brings it to a size, of which
+/// it tells in a remark. Throws Error, at the key, if it cannot be read, has other proportions or
+/// is not finite everywhere.
+Image load_background_image(const std::filesystem::path& path, Resolution size, const Cursor& at,
+                            std::vector<std::string>& remarks);
 
 }  // namespace airlight

@@ -67,10 +67,12 @@ Scene scene_of(const Value& value, const Files& files) {
   scene.camera = document.camera;
   scene.resolution = document.image;
   scene.background = document.background;
-  if (document.background_image)
+  if (document.background_image) {
+    const Cursor here = at.at_or_here("background_image");
     scene.background_image = load_background_image(
-        files.folder / numbered(*document.background_image, document.render.frame),
-        scene.resolution, at.at_or_here("background_image"));
+        numbered(files.path(*document.background_image, here), document.render.frame),
+        scene.resolution, here, scene.assumptions);
+  }
   scene.ambient = document.ambient;
   scene.render = document.render;
   check_camera(scene.camera, at.at_or_here("camera"));

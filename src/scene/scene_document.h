@@ -27,7 +27,7 @@ struct SceneDocument {
     using D = SceneDocument;
     field("background", &D::background, unit::radiance, at_least(0), "seen behind everything");
     field("background_image", &D::background_image, unit::none, any_number(),
-          "a picture of the same size (.png, .jpg, .hdr, .exr, .pfm) that is seen behind "
+          "a picture of the same proportions (.png, .jpg, .hdr, .exr, .pfm) that is seen behind "
           "everything instead, pixel by pixel; its path starts at the scene file");
     field("ambient", &D::ambient, unit::radiance, at_least(0),
           "light from all around; it reaches surfaces only, not the medium");

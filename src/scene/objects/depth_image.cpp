@@ -2,30 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
 #include "error.h"
 #include "image/input.h"
 #include "scene/objects/depth_surface.h"
+#include "scene/proportions.h"
 
 namespace airlight {
-namespace {
-
-/// Whether pictures show the same, to less than a pixel of the depths.
-bool have_same_proportions(const Image& depths, Resolution picture) {
-  const auto [width, height] = picture;
-  const std::int64_t off =
-      std::int64_t(depths.width) * height - std::int64_t(depths.height) * width;
-  return std::abs(off) < std::min(width, height);
-}
-
-}  // namespace
 
 Parts DepthImageObject::build(const Cursor& at, const Files& files, const View& view) const {
-  const std::filesystem::path path = files.folder / *file;
   const Cursor at_file = at.at_or_here("file");
+  const std::filesystem::path path = files.path(*file, at_file);
   Numbers numbers;
   try {
     numbers = read_numbers(path, channel);

@@ -25,7 +25,7 @@ struct PlacedObject : Transform {
     Transform::describe_of<PlacedObject>(field);
     field("holdout", &O::holdout, unit::none, any_number(),
           "stands for a thing in the background's picture: it blocks and shadows, and the camera "
-          "sees the background in its place");
+          "sees the background in its place, in the shadows of objects that are no holdouts");
   }
 
   /// Puts the parts where the keys say, names and marks them.
