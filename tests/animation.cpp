@@ -247,9 +247,13 @@ TEST(Animation, tells_where_a_path_leads_nowhere) {
 TEST(Animation, tells_where_a_value_is_out_of_range_or_of_the_wrong_kind) {
   const std::string text = zoom("frames = [0, 4]\nvalues = [20, 220]\n");
   EXPECT_EQ(error_of(text, 3), "");
-  EXPECT_EQ(error_of(text, 4),
-            "film.toml:4:15: camera.fov = 220 is out of range: a number in (0, 180) degrees "
-            "(vertical field of view)");
+  const std::string range =
+      "is out of range: a number in (0, 180) degrees (vertical field of view)";
+  EXPECT_EQ(
+      error_of(zoom("frames = [0, 4]\nvalues = [20, 236]\n"), 3),
+      "film.toml:4:11: camera.fov = 182, at frame 3, between the keys at 4:11 and 4:15, " + range);
+  EXPECT_EQ(error_of(text, 4), "film.toml:4:15: camera.fov = 220, at frame 4, " + range);
+  EXPECT_EQ(error_of(text, 9), "film.toml:4:15: camera.fov = 220, at frame 9, " + range);
   EXPECT_THAT(
       error_of("[[animation]]\npath = \"camera.target\"\nframes = [0]\nvalues = [[1, 2]]\n"),
       StartsWith("film.toml:4:11: camera.target = [1, 2] has 2 numbers, not 3"));
@@ -568,6 +572,65 @@ TEST(Frames, that_an_interrupt_cut_short_are_not_written) {
                               }});
   EXPECT_EQ(outcome.status % 1000, outcome.status >= 1000 ? SIGINT : 128 + SIGINT);
   EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml"));
+}
+
+TEST(Frames, that_the_time_limit_cuts_short_are_not_written) {
+  const Desk desk;
+  // The first frame is soon done, the second would never be.
+  write_bytes(desk.scene, std::string(film) +
+                              "[[animation]]\npath = \"render.spp\"\nframes = [0, 1]\n"
+                              "values = [1, 268435456]\ninterpolation = \"step\"\n");
+  const std::vector<std::string> flags = {"--frames", "0..5",         "--time-limit",
+                                          "2",        "--size",       "64x64",
+                                          "--isa",    "baseline",     "--skip-existing",
+                                          "--resume", "--checkpoint", desk.folder / "out.#.ckpt"};
+  const Outcome outcome = desk.render("out.#.png", flags);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              testing::EndsWith(
+                  "frame 1 is cut short by the time limit and not written; 1 of 6 are there\n"));
+  EXPECT_THAT(desk.folder.names(),
+              ElementsAre("film.toml", "out.0.ckpt", "out.0.png", "out.1.ckpt"));
+}
+
+TEST(Frames, go_on_in_the_middle_of_one_from_its_checkpoint) {
+  const Desk whole, parts;
+  const auto render = [&](const std::string& output, const std::string& spp) {
+    return parts.render(output, {"--frames", "0..2", "--spp", spp, "--samples-per-ray", "1",
+                                 "--checkpoint", parts.folder / "out.#.ckpt", "--resume"});
+  };
+  ASSERT_EQ(render("half.#.pfm", "8").status, 0);
+  ASSERT_EQ(render("out.#.pfm", "16").status, 0);
+  ASSERT_EQ(whole.render("out.#.pfm", {"--frames", "0..2", "--spp", "16", "--samples-per-ray", "1"})
+                .status,
+            0);
+  for (const char* name : {"out.0.pfm", "out.1.pfm", "out.2.pfm"}) {
+    const Image a = read_image(whole.folder / name), b = read_image(parts.folder / name);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+      ASSERT_NEAR(a.pixels[i], b.pixels[i], 3e-6f * (1 + a.pixels[i])) << name;
+  }
+  // Every frame has its own: that of another is another render.
+  std::filesystem::copy_file(parts.folder / "out.0.ckpt", parts.folder / "out.3.ckpt");
+  const Outcome outcome =
+      parts.render("out.#.pfm", {"--frames", "3", "--spp", "16", "--samples-per-ray", "1",
+                                 "--checkpoint", parts.folder / "out.#.ckpt", "--resume"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("out.3.ckpt: is of another render: "));
+}
+
+TEST(Frames, find_what_is_in_the_way_of_a_checkpoint_before_the_first) {
+  const Desk desk;
+  write_bytes(desk.folder / "out.2.ckpt", "another's");
+  const Outcome outcome =
+      desk.render("out.#.png", {"--frames", "0..2", "--checkpoint", desk.folder / "out.#.ckpt"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("out.2.ckpt: is there already; accepted: a new file, or"));
+  EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml", "out.2.ckpt"));
+  EXPECT_EQ(bytes_of(desk.folder / "out.2.ckpt"), "another's");
+  const Outcome single =
+      desk.render("out.#.png", {"--frames", "0..1", "--checkpoint", desk.folder / "one.ckpt"});
+  EXPECT_EQ(single.status, 2);
+  EXPECT_THAT(single.err, HasSubstr("one.ckpt: has no place for the number of a frame"));
 }
 
 TEST(Frames, are_whole_however_often_the_run_is_killed) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
+
 #include "error.h"
 #include "flags.h"
 #include "frame_range.h"
@@ -11,6 +13,7 @@
 #include "numbers.h"
 #include "outputs.h"
 #include "progress_line.h"
+#include "render/checkpoint_keeper.h"
 #include "render/prepare.h"
 #include "render/summary.h"
 #include "render/version.h"
@@ -32,7 +35,7 @@ struct Schedule {
     field("preview", &Schedule::preview, airlight::unit::second, airlight::closed(0.1, 1e6),
           "writes the output again every so often while rendering; without a number every 2 s");
     field("time_limit", &Schedule::time_limit, airlight::unit::second, airlight::above(0),
-          "stops after this time and writes what is done");
+          "stops after this time and writes what is done; of a run of frames, the whole ones");
     field("checkpoint_every", &Schedule::checkpoint_every, airlight::unit::second,
           airlight::closed(0.01, 1e6),
           "how often the checkpoint is written; without it every 60 s");
@@ -63,8 +66,8 @@ constexpr const char* examples = R"(Examples:
   airlight render fog.toml -o fog.exr --spp 65536 --checkpoint fog.ckpt --resume
 
 Ctrl-C ends a render and writes what is done (exit status 130); a second Ctrl-C ends it at once. Of a run of frames
-only whole ones are written; with --skip-existing the same command goes on where a run ended. With --checkpoint and
---resume the same command goes on in the middle of a picture, whatever ended it.
+only whole ones are written, also where --time-limit ends it; with --skip-existing the same command goes on where a run
+ended. With --checkpoint and --resume the same command goes on in the middle of a picture, whatever ended it.
 )";
 
 std::optional<PixelRect> crop_of(const std::string& text) {
@@ -103,6 +106,11 @@ struct Manner {
         quiet(flags.quiet) {
     if (checkpoint.empty()) check_no_checkpoint(flags);
   }
+
+  airlight::CheckpointPlan checkpoint_plan() const {
+    return {
+        .file = checkpoint, .every = schedule.checkpoint_every, .resume = resume, .on_failure = {}};
+  }
 };
 
 /// The film with how it came about.
@@ -139,9 +147,15 @@ struct Turn {
   bool is_first = true;
 };
 
-/// Renders a scene into files. Returns the exit status.
-int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
-                   const Turn& turn = {}) {
+/// How the render of a picture ended.
+struct Ending {
+  int status = 0;
+  bool is_written = true;
+};
+
+/// Renders a scene into files; a frame of a run only if it is whole.
+Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
+                      const Turn& turn = {}) {
   // The camera sees no background; what it sends elsewhere stays.
   if (manner.alpha)
     scene.background_image = airlight::Image(scene.resolution.width, scene.resolution.height);
@@ -161,14 +175,13 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
     if (Interrupt::received()) stop.request_stop();
     line.show(progress);
   };
-  if (!manner.checkpoint.empty())
-    control.checkpoint = {.file = manner.checkpoint,
-                          .every = manner.schedule.checkpoint_every,
-                          .resume = manner.resume,
-                          .on_failure = [&](const Error& error) {
-                            line.clear();
-                            fmt::print(stderr, "{}\n", error.what());
-                          }};
+  if (!manner.checkpoint.empty()) {
+    control.checkpoint = manner.checkpoint_plan();
+    control.checkpoint->on_failure = [&](const Error& error) {
+      line.clear();
+      fmt::print(stderr, "{}\n", error.what());
+    };
+  }
   const char* const instruction_set = renderer.instruction_set(scene.render);
   if (manner.schedule.preview > 0) {
     control.short_passes = true;
@@ -188,8 +201,8 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
 
   const Rendered done = renderer.render(scene.render, control);
   line.clear();
-  const bool interrupted = !done.complete && Interrupt::received();
-  if (interrupted && !turn.name.empty()) return 128 + Interrupt::received();
+  const int status = !done.complete && Interrupt::received() ? 128 + Interrupt::received() : 0;
+  if (!done.complete && !turn.name.empty()) return {done.kept ? status : bad_input, false};
   outputs.write(
       picture_of(done.film, scene.render, manner.alpha, done.instruction_set, done.seconds));
   if (done.rejected > 0)
@@ -203,14 +216,15 @@ int render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
     fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", outputs.names(), done.film.crop.width,
                done.film.crop.height, done.samples, of, done.seconds, done.instruction_set);
   }
-  if (!done.kept) return bad_input;
-  return interrupted ? 128 + Interrupt::received() : 0;
+  return {done.kept ? status : bad_input};
 }
 
 /// Renders the frames that are wanted, one after the other.
 int render_frames(const Flags& flags) {
+  const auto start = std::chrono::steady_clock::now();
   const FrameRange range = frame_range(flags.frames);
   Manner manner(flags);
+  const double time_limit = manner.schedule.time_limit;
   if (!flags.checkpoint.empty() && !airlight::is_pattern(flags.checkpoint))
     throw Error(
         flags.checkpoint.string() +
@@ -224,7 +238,10 @@ int render_frames(const Flags& flags) {
     Outputs outputs = flags.outputs.of_frame(frame);
     outputs.check();
     file.check(frame);
-    if (!flags.skip_existing || !outputs.exist()) wanted.push_back(frame);
+    if (flags.skip_existing && outputs.exist()) continue;
+    wanted.push_back(frame);
+    manner.checkpoint = airlight::numbered(flags.checkpoint, frame);
+    if (!manner.checkpoint.empty()) check_place(manner.checkpoint_plan());
   }
   if (const auto skipped = range.count() - std::ssize(wanted); skipped > 0 && !flags.quiet)
     fmt::print("{} of {} frames are there already\n", skipped, range.count());
@@ -235,8 +252,18 @@ int render_frames(const Flags& flags) {
     outputs.check();
     manner.checkpoint = airlight::numbered(flags.checkpoint, wanted[i]);
     const std::string name = fmt::format("frame {}, {} of {}", wanted[i], i + 1, wanted.size());
-    const int status = render_picture(scene, outputs, manner, {name, i == 0});
-    if (status != 0) return status;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    // Not 0, which is no limit.
+    if (time_limit > 0) manner.schedule.time_limit = std::max(time_limit - spent.count(), 1e-9);
+    const Ending ending = render_picture(scene, outputs, manner, {name, i == 0});
+    if (ending.status != 0) return ending.status;
+    if (!ending.is_written) {
+      if (!flags.quiet)
+        fmt::print("frame {} is cut short by the time limit and not written; {} of {} are there\n",
+                   wanted[i], range.count() - std::ssize(wanted) + std::ptrdiff_t(i),
+                   range.count());
+      return 0;
+    }
     std::fflush(stdout);
   }
   return 0;
@@ -246,12 +273,15 @@ int render(Flags& flags) {
   if (!flags.frames.empty()) return render_frames(flags);
   flags.outputs.check();
   const Manner manner(flags);
+  if (airlight::is_pattern(flags.checkpoint))
+    throw Error(flags.checkpoint.string() +
+                ": # stands for the number of a frame, which --frames gives");
   if (flags.skip_existing && flags.outputs.exist()) {
     if (!flags.quiet) fmt::print("{}: there already\n", flags.outputs.names());
     return 0;
   }
   const Scene scene = flags.scene.load();
-  return render_picture(scene, flags.outputs, manner);
+  return render_picture(scene, flags.outputs, manner).status;
 }
 
 }  // namespace

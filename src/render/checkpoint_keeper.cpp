@@ -34,13 +34,18 @@ bool CheckpointKeeper::write() const {
   }
 }
 
+void check_place(const CheckpointPlan& plan) {
+  check_writable(plan.file);
+  if (!plan.resume && std::filesystem::is_regular_file(plan.file))
+    throw Error(plan.file.string() +
+                ": is there already; accepted: a new file, or --resume to go on with it");
+}
+
 std::optional<Checkpoint> resumed(const CheckpointPlan& plan, const Film& film,
                                   const Traits& traits, const RenderSettings& settings) {
-  check_writable(plan.file);
+  check_place(plan);
   const std::string file = plan.file.string();
   if (!std::filesystem::is_regular_file(plan.file)) return std::nullopt;
-  if (!plan.resume)
-    throw Error(file + ": is there already; accepted: a new file, or --resume to go on with it");
   Checkpoint found = read_checkpoint(plan.file);
   if (const std::string differs = difference(found.origin.traits, traits); !differs.empty())
     throw Error(fmt::format("{}: is of another render: {}", file, differs));

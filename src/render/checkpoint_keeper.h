@@ -31,6 +31,9 @@ class CheckpointKeeper {
   std::jthread thread_;
 };
 
+/// Throws Error if a plan's file cannot be written, or is there and not to be gone on with.
+void check_place(const CheckpointPlan& plan);
+
 /// What a plan finds in its file: nothing if there is none. Throws Error if the file is there but
 /// not asked for, cannot be read, or holds what a render of these traits and settings into this
 /// film would not.
