@@ -333,8 +333,8 @@ TEST(Checkpoint, is_refused_when_cut_short_or_damaged_anywhere) {
     EXPECT_NE(error(damaged), "") << "byte " << i;
   }
   std::string newer = bytes;
-  newer[20] = 2;
-  EXPECT_EQ(error(newer), bad + ": is a checkpoint of format 2; accepted: 1");
+  newer[20] = 3;
+  EXPECT_EQ(error(newer), bad + ": is a checkpoint of format 3; accepted: 2");
   EXPECT_THAT(error_of([&] { read_checkpoint(folder / "no.ckpt"); }),
               EndsWith("no.ckpt: cannot be read: No such file or directory"));
 }

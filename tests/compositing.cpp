@@ -11,8 +11,10 @@
 #include "image/input.h"
 #include "image/output.h"
 #include "image/read_file.h"
+#include "image/resize.h"
 #include "image/srgb.h"
 #include "render/kernel.h"
+#include "render/prepare.h"
 #include "render/render.h"
 #include "scene/described.h"
 #include "scene/load_scene.h"
@@ -27,12 +29,19 @@ using test::Folder;
 using ::testing::HasSubstr;
 using Colour = Rgb<double>;
 
+const Mesh& mesh_of(const Scene& scene) { return std::get<Mesh>(scene.objects.at(0).geometry); }
+
 /// A picture without two pixels alike.
 Image noise(int width, int height) {
   Image image(width, height);
   std::mt19937 random(7);
   for (float& value : image.pixels) value = std::uniform_real_distribution<float>(0.1f, 2)(random);
   return image;
+}
+
+Image product(Image a, const Image& b) {
+  std::ranges::transform(a.pixels, b.pixels, a.pixels.begin(), std::multiplies());
+  return a;
 }
 
 /// Fog between -1 and 1 in front of everything, a ball, a pane of blue glass and a wall behind half
@@ -125,13 +134,13 @@ TEST_P(EveryArithmetic, layers_laid_over_a_picture_are_what_is_rendered_before_i
     Scene scene = veiled(48, 40);
     scene.objects[0].holdout = holdout;
     const Film alone = render(scene);
-    const Image in_scatter = alone.layer("in_scatter"), surface = alone.layer("surface"),
-                transmittance = alone.layer("transmittance");
+    const Image in_scatter = alone.layer("in_scatter"), surface = alone.layer("surface");
+    Image passes = alone.layer("transmittance");
+    if (holdout) passes = product(passes, alone.layer("shadow"));
     scene.background_image = noise(48, 40);
-    Image composite = scene.background_image;
+    Image composite = product(passes, scene.background_image);
     for (std::size_t i = 0; i < composite.pixels.size(); ++i)
-      composite.pixels[i] =
-          in_scatter.pixels[i] + surface.pixels[i] + transmittance.pixels[i] * composite.pixels[i];
+      composite.pixels[i] += in_scatter.pixels[i] + surface.pixels[i];
     expect_equal(render(scene).layer("beauty"), composite);
   }
 }
@@ -208,6 +217,193 @@ TEST_P(EveryArithmetic, a_holdout_shadows_the_fog_as_any_object_does) {
   const Image want = render(scene).layer("in_scatter");
   for (Object& object : scene.objects) object.holdout = true;
   EXPECT_EQ(render(scene).layer("in_scatter").pixels, want.pixels);
+}
+
+// ---- shadows on holdouts
+
+/// A floor that the picture shows, seen from the side under a sun at the zenith. What throws a
+/// shadow is not in view; it is above the origin, at which the camera looks.
+Scene floor_with(const std::string& more, const std::vector<Override>& changes = {}) {
+  return parse_scene(R"(
+background = [1, 2, 3]
+ambient = [0.1, 0.3, 0.7]
+[camera]
+position = [0, 0.5, 3]
+target = [0, 0, 0]
+fov = 1
+[image]
+width = 5
+height = 3
+[render]
+spp = 8
+samples_per_ray = 2
+[[lights]]
+type = "directional"
+irradiance = [3, 2, 1]
+direction = [0, -1, 0]
+[[objects]]
+type = "rectangle"
+corner = [-9, 0, 9]
+u = [18, 0, 0]
+v = [0, 0, -18]
+holdout = true
+)" + more,
+                     "floor", changes);
+}
+
+constexpr const char* ball = R"(
+[[objects]]
+type = "sphere"
+centre = [0, 2, 0]
+radius = 0.5
+)";
+
+/// What is left of the light on that floor if so much of the sun arrives.
+Colour left(const Colour& sun) {
+  const Colour ambient = Colour(0.1, 0.3, 0.7) * pi, all(3, 2, 1);
+  Colour result;
+  for (int c = 0; c < 3; ++c) result[c] = (ambient[c] + all[c] * sun[c]) / (ambient[c] + all[c]);
+  return result;
+}
+
+class ShadowOnHoldouts : public EveryArithmetic {
+ protected:
+  /// The picture is its background times this, however the rays are answered and followed.
+  void expect_left(Scene scene, const Colour& want, double tolerance = 2e-6) const {
+    for (const Visibility visibility : {Visibility::embree, Visibility::analytic})
+      for (const int max_depth : {1, 4}) {
+        scene.render.visibility = visibility;
+        scene.render.max_depth = max_depth;
+        const Film film = render(scene);
+        const auto expect_near = [&](const Image& image, double times) {
+          for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const double unit = 1 + times * double(i % 3);
+            ASSERT_NEAR(image.pixels[i], unit * want[int(i % 3)], unit * tolerance) << i;
+          }
+        };
+        expect_near(film.layer("beauty"), 1);
+        if (film.layout.shadow) expect_near(film.layer("shadow"), 0);
+      }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Compositing, ShadowOnHoldouts, testing::ValuesIn(available_kernels()),
+                         [](const auto& test) { return std::string(test.param->name); });
+
+TEST_P(ShadowOnHoldouts, leaves_the_ambient_light_in_the_umbra) {
+  expect_left(floor_with(ball), left(Colour()));
+}
+
+TEST_P(ShadowOnHoldouts, is_none_beside_what_throws_it) {
+  expect_left(floor_with(ball, {"objects.1.centre=[0.7, 2, 0]"}), Colour(1.), 0);
+}
+
+TEST_P(ShadowOnHoldouts, of_holdouts_is_in_the_picture_already) {
+  expect_left(floor_with(ball, {"objects.1.holdout=true"}), Colour(1.), 0);
+  // Where a holdout keeps the sun out, nothing else can take it.
+  expect_left(floor_with(ball + std::string(ball), {"objects.1.holdout=true"}), Colour(1.), 0);
+}
+
+TEST_P(ShadowOnHoldouts, of_glass_is_tinted) {
+  const Scene scene = floor_with(R"(
+[[objects]]
+type = "rectangle"
+corner = [-1, 2, 1]
+u = [2, 0, 0]
+v = [0, 0, -2]
+opacity = 0.25
+tint = [1, 0.5, 0]
+)");
+  expect_left(scene, left(Colour(0.75, 0.375, 0)));
+}
+
+TEST_P(ShadowOnHoldouts, of_fog_is_what_it_takes_of_the_light) {
+  // A metre of it between the sun and the floor, none before the camera.
+  const std::string fog = R"(
+[[media]]
+albedo = 0
+sigma_t = [0.1, 0.5, 2]
+shape = {type = "box", min = [-9, 1, -9], max = [9, 2, 9]}
+)";
+  const Colour arrives(std::exp(-0.1), std::exp(-0.5), std::exp(-2.));
+  expect_left(floor_with(fog), left(arrives));
+  expect_left(floor_with(fog + ball, {"objects.1.centre=[0, 4, 0]"}), left(Colour()));
+}
+
+TEST_P(ShadowOnHoldouts, is_none_where_there_is_no_light) {
+  expect_left(floor_with(ball, {"ambient=0", "lights.0.direction=[0, 1, 0]"}), Colour(1.), 0);
+  expect_left(floor_with(ball, {"ambient=0", "lights.0.irradiance=0"}), Colour(1.), 0);
+}
+
+TEST_P(ShadowOnHoldouts, is_a_ratio_of_sums) {
+  // A wall's edge above the origin hides half of the sun's disc from what is below it. The samples
+  // of a pixel are jittered strata of the disc; their number bounds the error of each.
+  Scene scene = floor_with(R"(
+[[objects]]
+type = "rectangle"
+corner = [-9, 2, 0]
+u = [18, 0, 0]
+v = [0, 0, -9]
+)",
+                           {"lights.0.angular_diameter=8", "camera.fov=0.001", "render.spp=1024",
+                            "render.samples_per_ray=1", "render.visibility=analytic"});
+  const Film film = render(scene);
+  const Image beauty = film.layer("beauty");
+  const Colour want = left(Colour(0.5));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(beauty.at(2, 1, c), (c + 1) * want[c], 0.01 * (c + 1));
+}
+
+TEST_P(ShadowOnHoldouts, dims_as_much_of_a_pixel_as_shows_them) {
+  // The floor is a thin veil: what is behind it passes and knows no shadow.
+  Scene scene = floor_with(ball, {"objects.0.opacity=0.25", "objects.0.tint=[1, 0.5, 0]"});
+  const Film film = render(scene);
+  const Image beauty = film.layer("beauty"), shadow = film.layer("shadow"),
+              transmittance = film.layer("transmittance");
+  const Colour through(0.75, 0.375, 0);
+  for (int c = 0; c < 3; ++c) {
+    const double want = 0.25 * left(Colour())[c] + through[c];
+    EXPECT_NEAR(beauty.at(2, 1, c), (c + 1) * want, 4e-6);
+    EXPECT_NEAR(transmittance.at(2, 1, c), 0.25 + through[c], 1e-6);
+    EXPECT_NEAR(shadow.at(2, 1, c), want / (0.25 + through[c]), 2e-6);
+  }
+}
+
+TEST_P(ShadowOnHoldouts, of_ranges_of_samples_adds_up) {
+  const std::string fog = R"(
+[[media]]
+albedo = 0.9
+sigma_t = [0.1, 0.5, 2]
+shape = {type = "box", min = [-9, 0, -9], max = [9, 4, 9]}
+)";
+  const std::vector<Override> changes = {"camera.fov=25", "lights.0.angular_diameter=8",
+                                         "image.width=21", "image.height=11"};
+  for (const int max_depth : {1, 3}) {
+    Scene scene = floor_with(ball + fog, changes);
+    scene.render.max_depth = max_depth;
+    scene.render.spp = 16, scene.render.samples_per_ray = 1, scene.render.first_sample = 0;
+    const Film whole = render(scene);
+    scene.render.spp = 8;
+    Film sum = render(scene);
+    scene.render.first_sample = 8;
+    sum.merge(render(scene));
+    for (const char* layer : {"beauty", "shadow"})
+      expect_equal(sum.layer(layer), whole.layer(layer));
+    const Image shadow = whole.layer("shadow");
+    EXPECT_LT(std::ranges::min(shadow.pixels), 0.6f);
+    EXPECT_LE(std::ranges::max(shadow.pixels), 1.f);
+  }
+}
+
+TEST(Shadow, costs_memory_only_where_there_can_be_one) {
+  const auto layout = [](const Scene& scene) {
+    return film_layout(scene, estimator_for(scene.render));
+  };
+  const std::size_t with = layout(floor_with(ball)).bytes_a_pixel();
+  for (const Scene& scene : {floor_with(""), floor_with(ball, {"objects.0.holdout=false"}),
+                             floor_with(ball, {"lights=[]"})}) {
+    EXPECT_FALSE(layout(scene).shadow);
+    EXPECT_EQ(layout(scene).bytes_a_pixel(), with - 3 * sizeof(double) - 9 * sizeof(float));
+  }
 }
 
 /// A row of pixels of the beauty, four numbers each, the last one alpha.
@@ -297,6 +493,22 @@ radius = 0.5
   EXPECT_EQ(beauty.at(20, 7, 1), scattered.at(20, 7, 1));
 }
 
+TEST(Alpha, of_a_shadow_is_the_light_it_takes) {
+  const Folder folder;
+  Scene scene = floor_with(ball);
+  scene.background_image = Image(5, 3);
+  Picture picture;
+  const Rendered done = Renderer(scene).render(scene.render);
+  picture = done.film.picture();
+  add_alpha(picture);
+  std::vector<float> row(5);
+  picture.alpha->fill(1, row);
+  const Colour rest = left(Colour());
+  for (const float alpha : row) EXPECT_NEAR(alpha, 1 - (rest.r + rest.g + rest.b) / 3, 2e-6);
+  // Nothing but shadow is in the layer: it darkens what it is laid over.
+  for (const float light : done.film.layer("beauty").pixels) EXPECT_EQ(light, 0);
+}
+
 TEST(Holdouts, are_objects_of_every_kind) {
   for_each_member<Objects>([](auto object) {
     object.holdout = true;
@@ -324,6 +536,67 @@ TEST(Backgrounds, come_from_the_scene_or_the_command_line) {
   EXPECT_EQ(read_image(folder / "out.pfm").pixels, plate.pixels);
 }
 
+TEST(Backgrounds, of_another_size_are_brought_to_that_of_the_render) {
+  const Folder folder;
+  const Image plate = noise(8, 6);
+  write_pfm(folder / "plate.pfm", picture_of(plate));
+  test::write_bytes(folder / "scene.toml", "background_image = \"plate.pfm\"\n");
+  const auto mean = [](const Image& image) {
+    double sum = 0;
+    for (const float value : image.pixels) sum += double(value);
+    return sum / double(image.pixels.size());
+  };
+  const auto [least, most] = std::ranges::minmax(plate.pixels);
+  for (const char* size : {"4x3", "16x12", "40x30", "800x600"}) {
+    SCOPED_TRACE(size);
+    const auto outcome = test::run(
+        {"render", folder / "scene.toml", "--size", size, "--spp", "1", "-o", folder / "out.pfm"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(folder / "plate.pfm" + " is 8 x 6 pixels and is shown at "));
+    const Image shown = read_image(folder / "out.pfm");
+    // What lies at the edge counts a little more or less.
+    EXPECT_NEAR(mean(shown), mean(plate), 0.05 * mean(plate));
+    EXPECT_GE(std::ranges::min(shown.pixels), least);
+    EXPECT_LE(std::ranges::max(shown.pixels), most);
+  }
+  // Pixels that are alike stay as they are.
+  Image grey(4, 2);
+  std::ranges::fill(grey.pixels, 0.3f);
+  for (const float value : resized(grey, 10, 5).pixels) EXPECT_FLOAT_EQ(value, 0.3f);
+}
+
+TEST(Backgrounds, and_files_that_a_flag_names_start_at_the_current_folder) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "scenes");
+  std::filesystem::create_directory(folder / "shots");
+  for (const char* name : {"scenes/plate.pfm", "shots/plate.pfm"})
+    write_pfm(folder / name, picture_of(Image(8, name[1] == 'c' ? 6 : 3)));
+  test::write_bytes(folder / "scenes/scene.toml", R"(
+background_image = "plate.pfm"
+[image]
+width = 8
+height = 6
+[[objects]]
+type = "mesh"
+file = "part.obj"
+)");
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  test::write_bytes(folder / "scenes/part.obj", triangle);
+  test::write_bytes(folder / "shots/part.obj", triangle + "f 3 2 1\n");
+  const auto triangles = [&](const std::vector<Override>& changes) {
+    return mesh_of(load_scene("../scenes/scene.toml", changes)).triangles.size();
+  };
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "shots");
+  EXPECT_EQ(triangles({}), 1u);
+  EXPECT_EQ(triangles({"objects.0.file=part.obj"}), 2u);
+  EXPECT_EQ(triangles({"objects=[{type=\"mesh\", file=\"part.obj\"}]"}), 2u);
+  EXPECT_EQ(triangles({"background_image=plate.pfm", "image.height=3"}), 1u);
+  EXPECT_THROW(triangles({"background_image=plate.pfm"}), Error);
+  EXPECT_THROW(triangles({"image.height=3"}), Error);
+  std::filesystem::current_path(before);
+}
+
 /// The one line that the program says of a scene, with the folder's path left out.
 std::string complaint(const Folder& folder, const std::vector<std::string>& flags) {
   std::vector<std::string> words = {"render", folder / "scene.toml", "-o", folder / "out.exr"};
@@ -346,8 +619,9 @@ TEST(Backgrounds, that_cannot_serve_are_told_in_one_line) {
             "cannot be read: No such file or directory\n");
   write_pfm(folder / "plate.pfm", picture_of(noise(8, 6)));
   EXPECT_EQ(complaint(folder, {}),
-            "scene.toml:1:20: background_image names a picture of another size: plate.pfm is 8 x 6 "
-            "pixels; accepted: 640 x 360, the picture's\n");
+            "scene.toml:1:20: background_image names a picture of other proportions: plate.pfm is "
+            "8 x 6 pixels; accepted: 640 x 360, the picture's, or a size of the same "
+            "proportions\n");
   std::string bytes = test::bytes_of(folder / "plate.pfm");
   const float hole = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(bytes.data() + bytes.size() - sizeof hole, &hole, sizeof hole);
@@ -374,8 +648,6 @@ void write_depths(const std::string& path, const Image& image) {
     bytes.append(reinterpret_cast<const char*>(image.row(y).data()), image.row(y).size_bytes());
   test::write_bytes(path, bytes);
 }
-
-const Mesh& mesh_of(const Scene& scene) { return std::get<Mesh>(scene.objects.at(0).geometry); }
 
 TEST(DepthImages, of_a_plane_are_the_plane) {
   const CameraFrame frame = camera_frame({.position = {1, 2, 3}, .target = {0, 1, -2}}, {16, 12});

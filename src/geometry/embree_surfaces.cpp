@@ -54,7 +54,8 @@ void filter_hit(const RTCFilterFunctionNArguments* call) {
 
 }  // namespace
 
-EmbreeSurfaces::EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter> surfaces)
+EmbreeSurfaces::EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter> surfaces,
+                               Among among)
     : scene_(&scene), device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) throw Error("Embree does not start on this machine; it needs SSE2");
   embree_.reset(rtcNewScene(device_.get()));
@@ -64,7 +65,8 @@ EmbreeSurfaces::EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter
   rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(embree_.get(), RTC_BUILD_QUALITY_MEDIUM);
   for (std::uint32_t id = 0; id < scene.objects.size(); ++id)
-    if (!surfaces[id].is_clear()) attach(id, surfaces[id]);
+    if (!surfaces[id].is_clear() && (among == Among::all || scene.objects[id].holdout))
+      attach(id, surfaces[id]);
   rtcCommitScene(embree_.get());
   switch (const RTCError error = rtcGetDeviceError(device_.get())) {
     case RTC_ERROR_NONE:

@@ -4,6 +4,7 @@
 #include <span>
 #include <type_traits>
 
+#include "among.h"
 #include "hit.h"
 #include "packet.h"
 #include "surface_filter.h"
@@ -18,7 +19,7 @@ class EmbreeSurfaces {
  public:
   /// Scene and surfaces must outlive it and stay where they are: meshes are shared with the scene,
   /// and filters look at the surfaces. Throws Error if memory does not suffice.
-  EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter> surfaces);
+  EmbreeSurfaces(const Scene& scene, std::span<const SurfaceFilter> surfaces, Among among);
 
   /// As World::transmit.
   template <Real F>

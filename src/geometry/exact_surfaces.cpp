@@ -6,12 +6,13 @@
 
 namespace airlight {
 
-ExactSurfaces::ExactSurfaces(const Scene& scene) {
+ExactSurfaces::ExactSurfaces(const Scene& scene, Among among) {
   const auto below = [](Vec3<double> a, Vec3<double> b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
   for (std::uint32_t id = 0; id < scene.objects.size(); ++id) {
     const Object& object = scene.objects[id];
+    if (among == Among::holdouts && !object.holdout) continue;
     if (const auto* sphere = std::get_if<Sphere>(&object.geometry)) {
       balls_.push_back({sphere->centre, sphere->radius, id});
       continue;

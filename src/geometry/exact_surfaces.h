@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "among.h"
 #include "hit.h"
 #include "surface_filter.h"
 
@@ -17,7 +18,7 @@ struct Scene;
 /// last bit they may disagree.)
 class ExactSurfaces {
  public:
-  explicit ExactSurfaces(const Scene& scene);
+  ExactSurfaces(const Scene& scene, Among among);
 
   /// As World::transmit; `surfaces` are the objects'.
   template <Real F>

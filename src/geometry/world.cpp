@@ -4,15 +4,34 @@
 
 namespace airlight {
 
-World::World(const Scene& scene, Visibility visibility)
-    : scene_(&scene), bounds_(bounds_of(scene)) {
-  for (const Object& object : scene.objects) surfaces_.emplace_back(scene, object);
-  filters_ = std::ranges::any_of(
-      surfaces_, [](const SurfaceFilter& s) { return !s.is_opaque() && !s.is_clear(); });
+namespace {
+
+std::vector<SurfaceFilter> filters_of(const Scene& scene) {
+  std::vector<SurfaceFilter> filters;
+  for (const Object& object : scene.objects) filters.emplace_back(scene, object);
+  return filters;
+}
+
+}  // namespace
+
+World::Surfaces::Surfaces(const Scene& scene, Visibility visibility,
+                          std::span<const SurfaceFilter> filters, Among among) {
   if (visibility == Visibility::embree)
-    embree_.emplace(scene, surfaces_);
+    embree.emplace(scene, filters, among);
   else
-    exact_.emplace(scene);
+    exact.emplace(scene, among);
+}
+
+World::World(const Scene& scene, Visibility visibility)
+    : scene_(&scene),
+      bounds_(bounds_of(scene)),
+      surfaces_(filters_of(scene)),
+      filters_(std::ranges::any_of(
+          surfaces_, [](const SurfaceFilter& s) { return !s.is_opaque() && !s.is_clear(); })),
+      all_(scene, visibility, surfaces_, Among::all) {
+  const auto holdouts = std::ranges::count(scene.objects, true, &Object::holdout);
+  if (holdouts > 0 && holdouts < std::ssize(scene.objects))
+    holdouts_.emplace(scene, visibility, surfaces_, Among::holdouts);
 }
 
 SurfacePoint World::surface(std::uint32_t object, std::uint32_t primitive, float u,

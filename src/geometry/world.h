@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "among.h"
 #include "beam_image.h"
 #include "bounds.h"
 #include "embree_surfaces.h"
@@ -39,6 +40,12 @@ class World {
   template <Real F>
   Rgb<F> transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active) const noexcept;
 
+  /// The same if there were no objects but holdouts; `passed` is what `transmit` says of these
+  /// segments.
+  template <Real F>
+  Rgb<F> transmit_by_holdouts(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active,
+                              const Rgb<F>& passed) const noexcept;
+
   /// The nearest surface beyond t_min that does something to light. Not found in lanes that are not
   /// active.
   template <Real F>
@@ -52,26 +59,53 @@ class World {
   bool filters() const noexcept { return filters_; }
 
   /// The Embree scene itself, for measuring against it; null for analytic visibility.
-  RTCScene embree() const noexcept { return embree_ ? embree_->handle() : nullptr; }
+  RTCScene embree() const noexcept { return all_.embree ? all_.embree->handle() : nullptr; }
 
   /// Around all objects.
   const Bounds& bounds() const noexcept { return bounds_; }
 
  private:
+  /// Some of the objects.
+  struct Surfaces {
+    std::optional<EmbreeSurfaces> embree;  ///< either this
+    std::optional<ExactSurfaces> exact;    ///< or this
+
+    Surfaces(const Scene& scene, Visibility visibility, std::span<const SurfaceFilter> filters,
+             Among among);
+  };
+
+  template <Real F>
+  Rgb<F> transmit(const Surfaces& some, Vec3<F> from, Vec3<F> dir, F t_max, int light,
+                  Mask<F> active) const noexcept;
+
   const Scene* scene_;
   Bounds bounds_;
   std::vector<SurfaceFilter> surfaces_;  ///< one an object; a move leaves them where they are
   bool filters_;
-  std::optional<EmbreeSurfaces> embree_;  ///< either this
-  std::optional<ExactSurfaces> exact_;    ///< or this
+  Surfaces all_;
+  std::optional<Surfaces> holdouts_;  ///< where there are others besides
 };
 
 template <Real F>
 Rgb<F> World::transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light,
                        Mask<F> active) const noexcept {
+  return transmit(all_, from, dir, t_max, light, active);
+}
+
+template <Real F>
+Rgb<F> World::transmit_by_holdouts(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active,
+                                   const Rgb<F>& passed) const noexcept {
+  if (!holdouts_) return passed;
+  const Mask<F> held_back = active & (passed.r + passed.g + passed.b < F(3));
+  return select(held_back, transmit(*holdouts_, from, dir, t_max, light, held_back), passed);
+}
+
+template <Real F>
+Rgb<F> World::transmit(const Surfaces& some, Vec3<F> from, Vec3<F> dir, F t_max, int light,
+                       Mask<F> active) const noexcept {
   if (!any(active)) return {};
-  Rgb<F> passed = embree_ ? embree_->transmit(from, dir, t_max, active)
-                          : exact_->transmit(from, dir, t_max, active, surfaces_);
+  Rgb<F> passed = some.embree ? some.embree->transmit(from, dir, t_max, active)
+                              : some.exact->transmit(from, dir, t_max, active, surfaces_);
   if (std::size_t(light) >= scene_->lights.size()) return passed;
   if (const auto* beam = std::get_if<Collimated>(&scene_->lights[std::size_t(light)]))
     if (beam->image >= 0)
@@ -81,8 +115,9 @@ Rgb<F> World::transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light,
 
 template <Real F>
 Hit<F> World::closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active) const noexcept {
-  if (embree_ && any(active)) return embree_->closest(origin, dir, t_min, active);
-  if (exact_ && any(active)) return exact_->closest(origin, dir, t_min, active, surfaces_);
+  const auto& [embree, exact] = all_;
+  if (embree && any(active)) return embree->closest(origin, dir, t_min, active);
+  if (exact && any(active)) return exact->closest(origin, dir, t_min, active, surfaces_);
   return Hit<F>::none();
 }
 

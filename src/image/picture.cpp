@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "error.h"
 
@@ -30,9 +31,16 @@ void add_alpha(Picture& picture) {
   const auto found = std::ranges::find(picture.layers, "transmittance", &Layer::name);
   if (found == picture.layers.end())
     throw Error("a picture without the layer transmittance can have no alpha");
-  picture.alpha = {"alpha", {"A"}, [fill = found->fill](int y, std::span<float> row) {
+  const auto shadow = std::ranges::find(picture.layers, "shadow", &Layer::name);
+  const auto darken = shadow == picture.layers.end() ? nullptr : shadow->fill;
+  picture.alpha = {"alpha", {"A"}, [fill = found->fill, darken](int y, std::span<float> row) {
                      std::vector<float> passes(3 * row.size());
                      fill(y, passes);
+                     if (darken) {
+                       std::vector<float> left(passes.size());
+                       darken(y, left);
+                       std::ranges::transform(passes, left, passes.begin(), std::multiplies());
+                     }
                      for (std::size_t x = 0; x < row.size(); ++x) {
                        const float* p = &passes[3 * x];
                        row[x] = 1 - (p[0] + p[1] + p[2]) / 3;

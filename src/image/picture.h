@@ -61,7 +61,8 @@ struct Picture {
 void fill_row(const Layer& layer, int y, std::span<float> row, const std::filesystem::path& path);
 
 /// Gives alpha to a picture whose beauty has no background in it: 1 − the mean over the channels of
-/// its layer "transmittance". In that layer, channels may differ; alpha is one number.
+/// its layer "transmittance", times "shadow" if it has that. In those layers, channels may differ;
+/// alpha is one number.
 void add_alpha(Picture& picture);
 
 /// One layer, "beauty", that reads an RGB image, which must outlive the picture.

@@ -14,7 +14,7 @@ namespace airlight {
 namespace {
 
 constexpr std::string_view magic = "airlight checkpoint\n";
-constexpr std::uint32_t format = 1;
+constexpr std::uint32_t format = 2;
 
 /// What stands before the header.
 struct Prelude {
@@ -122,6 +122,7 @@ struct Header {
     pack(header.crop.x0), pack(header.crop.y0);
     pack(header.crop.width), pack(header.crop.height);
     pack(header.layout.groups), pack(header.layout.plain), pack(header.layout.ratio);
+    pack(header.layout.shadow);
     pack(header.groups), pack(header.runs);
     pack(header.origin.traits), pack(header.origin.seconds);
     pack(header.origin.instruction_set), pack(header.origin.version);

@@ -25,7 +25,17 @@ double per_sample(const PixelSums& pixel) {
 
 Rgb<double> in_scatter(const PixelSums& pixel) { return mean_estimate(pixel).radiance(); }
 
-Rgb<double> surface(const PixelSums& pixel) { return pixel.surface * per_sample(pixel); }
+Rgb<double> surface(const PixelSums& pixel) { return pixel.visible() * per_sample(pixel); }
+
+/// What shadow leaves of a background that is seen in part beside holdouts.
+Rgb<double> shadow(const PixelSums& pixel) {
+  const Rgb<double> left = pixel.holdouts.shadow();
+  Rgb<double> result(1.);
+  for (int c = 0; c < 3; ++c)
+    if (pixel.transmittance[c] > 0)
+      result[c] -= pixel.holdouts.seen[c] / pixel.transmittance[c] * (1 - left[c]);
+  return result;
+}
 
 Rgb<double> beauty(const PixelSums& pixel) { return in_scatter(pixel) + surface(pixel); }
 
@@ -191,6 +201,13 @@ PixelSums Film::pixel(std::size_t pixel, int group) const {
   result.surface = colour(sums_, sums, layout.surface(group));
   result.transmittance = colour(features_, features, FilmLayout::transmittance);
   result.albedo = colour(features_, features, FilmLayout::albedo);
+  if (layout.shadow) {
+    const int first = layout.holdouts();
+    result.holdouts = {colour(features_, features, first),
+                       group == 0 ? colour(sums_, sums, layout.plate()) : Rgb<double>(),
+                       colour(features_, features, first + 3),
+                       colour(features_, features, first + 6)};
+  }
   const Rgb<double> normal = colour(features_, features, FilmLayout::normal);
   result.normal = {normal.r, normal.g, normal.b};
   result.depth = row(features_, features, FilmLayout::depth);
@@ -299,6 +316,9 @@ Picture Film::picture() const {
   sum_layer("in_scatter", in_scatter);
   sum_layer("surface", surface);
   mean_layer("transmittance", &PixelSums::transmittance);
+  if (layout.shadow)
+    add_layer("shadow", rgb, Storage::colour,
+              [=, this](std::size_t i, float* out) { put_colour(shadow(pixel(i)), out); });
   mean_layer("albedo", &PixelSums::albedo);
   add_layer("normal", {"X", "Y", "Z"}, Storage::colour, [this](std::size_t i, float* out) {
     const PixelSums p = pixel(i);

@@ -25,29 +25,34 @@ constexpr int index(int x, int y) noexcept {
 /// up to radiance is kept in double, what only describes the picture in float.
 ///
 ///     double, for each light group:  plain, analytic, occluded, unoccluded (as used), surface; RGB
+///             then, of holdouts:     plate
 ///     float:                         transmittance, albedo, normal, depth, object, then for each
 ///     light group
 ///                                    the same sums of the in-scatter, but of its second half of
 ///                                    samples
+///             then, of holdouts:     seen, lit, was_lit
 struct FilmLayout {
-  int groups = 1;     ///< of lights; the first is of all that belongs to none
-  bool plain = true;  ///< an estimator without a quotient, or emission
-  bool ratio = true;  ///< an estimator with a quotient
+  int groups = 1;       ///< of lights; the first is of all that belongs to none
+  bool plain = true;    ///< an estimator without a quotient, or emission
+  bool ratio = true;    ///< an estimator with a quotient
+  bool shadow = false;  ///< holdouts that the medium or other objects may shadow
 
   /// Numbers of a group's in-scatter.
   constexpr int estimate() const noexcept { return (plain ? 3 : 0) + (ratio ? 9 : 0); }
 
   /// Rows of doubles in a block.
-  constexpr int sums() const noexcept { return groups * (estimate() + 3); }
+  constexpr int sums() const noexcept { return plate() + (shadow ? 3 : 0); }
   constexpr int in_scatter(int group) const noexcept { return group * (estimate() + 3); }
   constexpr int surface(int group) const noexcept { return in_scatter(group) + estimate(); }
+  constexpr int plate() const noexcept { return in_scatter(groups); }
 
   /// Rows of floats in a block.
-  constexpr int features() const noexcept { return second_half(groups); }
+  constexpr int features() const noexcept { return holdouts() + (shadow ? 9 : 0); }
   static constexpr int transmittance = 0, albedo = 3, normal = 6;
   static constexpr int added = 9;  ///< the first ones add up; depth and object do not
   static constexpr int depth = 9, object = 10;
   constexpr int second_half(int group) const noexcept { return 11 + group * estimate(); }
+  constexpr int holdouts() const noexcept { return second_half(groups); }
 
   constexpr std::size_t bytes_a_pixel() const noexcept {
     return std::size_t(sums()) * sizeof(double) + std::size_t(features()) * sizeof(float) +

@@ -70,7 +70,8 @@ class PathKernel {
         jobs_(std::uint64_t(tile.samples.count) * std::uint64_t(tile.rect.width) *
               std::uint64_t(tile.rect.height)),
         sums_(std::size_t(frame.layout.groups)),
-        rows_(std::size_t(frame.layout.sums()) + FilmLayout::added) {
+        rows_(std::size_t(frame.layout.sums() + FilmLayout::added + frame.layout.features() -
+                          frame.layout.holdouts())) {
     for (int y = 0; y < tile.rect.height; ++y)
       for (int x = 0; x < tile.rect.width; ++x) {
         const FilmPixels film = tile.film.at(tile.rect.x0 + x, tile.rect.y0 + y);
@@ -182,7 +183,7 @@ class PathKernel {
     const Mask<F> from_fog = !(paths_.on_camera_ray | paths_.via_surface);
     const Mask<F> last = paths_.events + F(1) >= F(Scalar<F>(frame_.paths.max_depth));
 
-    background(at, dimmed, from_fog, found);
+    background(at, dimmed, from_fog, found, surfaces);
     if (any(first_segment_)) describe(hit, found, at);
     Continued on{flight.draw(paths_.points.one(0, stream::flight)), F(0)};
     if (any(ray.active)) in_scatter<channels>(ray, on);
@@ -193,13 +194,19 @@ class PathKernel {
 
   /// What is behind everything. A picture there is seen by camera rays only: what it sends
   /// elsewhere is not known, and `background` stands for it.
-  void background(const Crossing<F>& at, const Rgb<F>& dimmed, Mask<F> from_fog,
-                  Mask<F> found) noexcept {
+  void background(const Crossing<F>& at, const Rgb<F>& dimmed, Mask<F> from_fog, Mask<F> found,
+                  const SurfaceLight<F, Space, PathSampler<F>>& surfaces) noexcept {
     const Mask<F> straight = paths_.alive & paths_.on_camera_ray;
     if (any(straight)) {
       const Rgb<F> passed = dimmed * select(found, at.uncovered, F(1));
       transmittance_ = select(straight, transmittance_ + passed, transmittance_);
-      add(Frame::ungrouped, passed * behind_, from_fog, straight);
+      Mask<F> open = straight;
+      if (const Mask<F> held = straight & found & (at.uncovered > F(0));
+          frame_.layout.shadow && any(held)) {
+        holdouts_ += surfaces.holdouts(at, passed, behind_, {0, 1}, held);
+        open = open & !held;
+      }
+      add(Frame::ungrouped, passed * behind_, from_fog, open);
     }
     if (frame_.scene.background != Rgb<double>())
       add(Frame::ungrouped, dimmed * Rgb<F>(frame_.scene.background), from_fog,
@@ -379,7 +386,9 @@ class PathKernel {
             colour(group.in_scatter.unoccluded);
       colour(group.surface);
     }
+    if (layout.shadow) colour(holdouts_.plate);
     colour(transmittance_), colour(albedo_), take(normal_.x), take(normal_.y), take(normal_.z);
+    if (layout.shadow) colour(holdouts_.seen), colour(holdouts_.lit), colour(holdouts_.was_lit);
     const std::uint32_t good = bits<F>(poison == F(0));
     for (int i = 0; i < lanes<F>; ++i)
       if ((ended >> i) & 1u) {
@@ -400,6 +409,9 @@ class PathKernel {
     for (int row = 0; row < sums; ++row) film.sums[row * width] += double(value(row));
     for (int row = 0; row < FilmLayout::added; ++row)
       film.features[row * width] += float(value(sums + row));
+    for (int row = layout.holdouts(); row < layout.features(); ++row)
+      film.features[row * width] +=
+          float(value(sums + FilmLayout::added + row - layout.holdouts()));
     if (job.half == 1)
       for (int g = 0; g < layout.groups; ++g)
         for (int k = 0; k < layout.estimate(); ++k)
@@ -426,6 +438,7 @@ class PathKernel {
   Rgb<F> behind_;                  ///< every path's pixel of the background
   Rgb<F> transmittance_, albedo_;
   Vec3<F> normal_;
+  HoldoutSums<F> holdouts_;
   F depth_{F(0)}, object_{F(0)};
   std::vector<std::array<Scalar<F>, std::size_t(lanes<F>)>>
       rows_;                     ///< sums on their way to the film

@@ -171,12 +171,25 @@ std::vector<std::string> light_group_names(const Scene& scene) {
   return names;
 }
 
+namespace {
+
+bool holdouts_may_be_shadowed(const Scene& scene) {
+  const bool fog = !scene.media.empty();
+  const auto others = std::ranges::count(scene.objects, false, &Object::holdout);
+  return !scene.lights.empty() && others < std::ssize(scene.objects) && (others > 0 || fog);
+}
+
+}  // namespace
+
 FilmLayout film_layout(const Scene& scene, const Estimators& estimator) {
   const auto* sampled = std::get_if<Sampled>(&estimator);
   const bool ratio = sampled && std::holds_alternative<Ratio>(sampled->form);
   const bool glows = std::ranges::any_of(
       scene.media, [](const Medium& medium) { return medium.emission != Rgb<double>(); });
-  return {.groups = int(light_group_names(scene).size()), .plain = !ratio || glows, .ratio = ratio};
+  return {.groups = int(light_group_names(scene).size()),
+          .plain = !ratio || glows,
+          .ratio = ratio,
+          .shadow = holdouts_may_be_shadowed(scene)};
 }
 
 namespace {

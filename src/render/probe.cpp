@@ -35,6 +35,7 @@ struct RayKeeper {
     if (walk.t_end < far_away) ray.end = walk.t_end;
     ray.through = walk.through;
     for (const Rgb<F>& group : walk.radiance) ray.surface += group;
+    ray.surface += walk.holdouts.plate * walk.holdouts.shadow();
     ray.emission = walk.emission;
     rays.push_back(ray);
     medium_rays.emplace_back().t_max = 0;
@@ -258,7 +259,7 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
     const PixelSums sums = film.pixel(0, group);
     result.mean += mean_estimate(sums);
     result.in_scatter += mean_estimate(sums).radiance();
-    result.surface += sums.surface * (1 / sums.sample_count());
+    result.surface += sums.visible() * (1 / sums.sample_count());
   }
   result.radiance = result.in_scatter + result.surface;
 

@@ -3,6 +3,7 @@
 #include <airlight/media.h>
 
 #include "render/frame.h"
+#include "render/holdout_sums.h"
 
 namespace airlight {
 
@@ -18,7 +19,7 @@ struct Crossing {
   F uncovered;                ///< the opacity of a holdout; 0 of other surfaces
 };
 
-/// An amount of light with the shadows of surfaces and without.
+/// An amount of light with shadows and without.
 template <Real F>
 struct Shadowed {
   Rgb<F> occluded, unoccluded;
@@ -85,28 +86,53 @@ class SurfaceLight {
     const Rgb<F> lambert = dim * at.albedo * F(1 / pi);
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
       std::visit(
-          [&](const auto& light) { sink(i, irradiance(light, i, at, samples, where) * lambert); },
+          [&](const auto& light) {
+            const auto arrives = [&](Vec3<F> w, F reach, Mask<F> struck) {
+              return arriving(w, reach, i, at, struck);
+            };
+            sink(i, irradiance(light, i, at, samples, where, arrives) * lambert);
+          },
           frame_.scene.lights[std::size_t(i)]);
   }
 
+  /// What is seen of holdouts: `seen` is what passes from them to the camera, `background` stands
+  /// in their place. Every sample counts with all shadows and with those of holdouts alone.
+  HoldoutSums<F> holdouts(const Crossing<F>& at, const Rgb<F>& seen, const Rgb<F>& background,
+                          SampleRange samples, Mask<F> where) const noexcept {
+    const Rgb<F> ambient(frame_.scene.ambient * pi);
+    Shadowed<F> light{ambient, ambient};
+    for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
+      std::visit(
+          [&](const auto& one) {
+            light +=
+                irradiance(one, i, at, samples, where, [&](Vec3<F> w, F reach, Mask<F> struck) {
+                  return arriving_at_holdout(w, reach, i, at, struck);
+                });
+          },
+          frame_.scene.lights[std::size_t(i)]);
+    const Rgb<F> passes = select(where, seen, Rgb<F>());
+    return {passes, passes * background, passes * light.occluded, passes * light.unoccluded};
+  }
+
  private:
-  /// Of a beam at a point of a surface.  [W/m²]
-  Shadowed<F> irradiance(const Collimated& beam, int light_index, const Crossing<F>& at,
-                         SampleRange, Mask<F> found) const noexcept {
+  /// Of a beam at a point of a surface; arrives(w, reach, where) says which part of it.  [W/m²]
+  template <class Arrives>
+  Shadowed<F> irradiance(const Collimated& beam, int, const Crossing<F>& at, SampleRange,
+                         Mask<F> found, const Arrives& arrives) const noexcept {
     const Mask<F> struck = found & beam.contains(at.point);
     if (!any(struck)) return {};
-    return arriving(Vec3<F>(beam.toward()), beam.reach(at.above), light_index, at, struck) *
-           Rgb<F>(beam.irradiance);
+    return arrives(Vec3<F>(beam.toward()), beam.reach(at.above), struck) * Rgb<F>(beam.irradiance);
   }
 
   /// Of a light at a point of a surface: the mean over the samples of the ray that came there.
   /// Directions to a disc belong to samples by their numbers, so that ranges of samples add up to
   /// the whole.  [W/m²]
-  Shadowed<F> irradiance(const Directional& light, int light_index, const Crossing<F>& at,
-                         SampleRange samples, Mask<F> found) const noexcept {
+  template <class Arrives>
+  Shadowed<F> irradiance(const Directional& light, int light_index, const Crossing<F>&,
+                         SampleRange samples, Mask<F> found,
+                         const Arrives& arrives) const noexcept {
     if (!(light.angular_diameter > 0))
-      return arriving(Vec3<F>(light.toward()), F(far_away), light_index, at, found) *
-             Rgb<F>(light.irradiance);
+      return arrives(Vec3<F>(light.toward()), F(far_away), found) * Rgb<F>(light.irradiance);
     Shadowed<F> sum;
     const std::uint32_t end = samples.first + samples.count;
     for (std::uint32_t i = samples.first; i < end;) {
@@ -114,7 +140,7 @@ class SurfaceLight {
       const std::uint32_t stop = std::min(end, (index + 1) * frame_.samples_per_surface_ray);
       const Vec3<F> w = uniform_cap(Vec3<F>(light.toward()), F(Scalar<F>(light.cap_height())),
                                     sampler_.two(index, stream::surface(light_index)));
-      sum += arriving(w, F(far_away), light_index, at, found) * Rgb<F>(F(Scalar<F>(stop - i)));
+      sum += arrives(w, F(far_away), found) * Rgb<F>(F(Scalar<F>(stop - i)));
       i = stop;
     }
     return sum * (Rgb<F>(light.irradiance) * F(Scalar<F>(1. / samples.count)));
@@ -124,16 +150,38 @@ class SurfaceLight {
   /// fog, shadows.
   Shadowed<F> arriving(Vec3<F> w, F reach, int light_index, const Crossing<F>& at,
                        Mask<F> found) const noexcept {
-    const F cosine = max(dot(at.normal, w), F(0));
-    const Mask<F> faces = found & (cosine > F(0)) & (dot(at.geometric, w) > F(0));
+    const F cosine = cosine_of(w, at);
+    const Mask<F> faces = found & (cosine > F(0));
     if (!any(faces)) return {};
     const Rgb<F> visible = frame_.world.transmit(at.above, w, reach, light_index, faces);
-    Rgb<F> part(cosine);
-    if (medium_) {
-      const LocalRay<F> to_light{space_.point(at.point), space_.vector(w)};
-      part *= stretches_of(medium_, space_, to_light).transmittance(reach);
-    }
+    const Rgb<F> part = through_medium(w, reach, at) * cosine;
     return {select(faces, part * visible, Rgb<F>()), select(faces, part, Rgb<F>())};
+  }
+
+  /// The same at a holdout, where what counts as shadow is the medium and what is no holdout.
+  Shadowed<F> arriving_at_holdout(Vec3<F> w, F reach, int light_index, const Crossing<F>& at,
+                                  Mask<F> found) const noexcept {
+    const F cosine = cosine_of(w, at);
+    const Mask<F> faces = found & (cosine > F(0));
+    if (!any(faces)) return {};
+    const World& world = frame_.world;
+    const Rgb<F> visible = world.transmit(at.above, w, reach, light_index, faces);
+    const Rgb<F> was =
+        world.transmit_by_holdouts(at.above, w, reach, light_index, faces, visible) * cosine;
+    const Rgb<F> is = visible * cosine * through_medium(w, reach, at);
+    return {select(faces, is, Rgb<F>()), select(faces, was, Rgb<F>())};
+  }
+
+  /// Between the normal and w; 0 on the side that light from w does not reach.
+  static F cosine_of(Vec3<F> w, const Crossing<F>& at) noexcept {
+    return select(dot(at.geometric, w) > F(0), max(dot(at.normal, w), F(0)), F(0));
+  }
+
+  /// What the medium leaves of light from w, where it starts `reach` away.
+  Rgb<F> through_medium(Vec3<F> w, F reach, const Crossing<F>& at) const noexcept {
+    if (!medium_) return Rgb<F>(F(1));
+    const LocalRay<F> to_light{space_.point(at.point), space_.vector(w)};
+    return stretches_of(medium_, space_, to_light).transmittance(reach);
   }
 
   const Frame& frame_;

@@ -19,14 +19,15 @@ class SurfaceWalk {
 
   Rgb<F> background;  ///< what is behind everything, to be set before the walk  [W/(m² sr)]
 
-  std::span<Rgb<F>>
-      radiance;          ///< of surfaces and background, as it reaches the camera, by light group
-  F t_end{F(far_away)};  ///< where nothing passes any more  [m]
-  Rgb<F> emission;       ///< of the medium, as it reaches the camera
-  Rgb<F> through{F(1)};  ///< what passes from the end of the ray to the camera
-  Rgb<F> uncovered;      ///< what passes from the background, also where holdouts show it
-  Rgb<F> albedo;         ///< of the first surface; 0 without one
-  Vec3<F> normal;        ///< of the first surface, towards the camera; 0 without one
+  std::span<Rgb<F>> radiance;  ///< of surfaces and background, as it reaches the camera, by light
+                               ///< group, without what is in `holdouts`
+  F t_end{F(far_away)};        ///< where nothing passes any more  [m]
+  Rgb<F> emission;             ///< of the medium, as it reaches the camera
+  Rgb<F> through{F(1)};        ///< what passes from the end of the ray to the camera
+  Rgb<F> uncovered;            ///< what passes from the background, also where holdouts show it
+  HoldoutSums<F> holdouts;     ///< if they may be shadowed
+  Rgb<F> albedo;               ///< of the first surface; 0 without one
+  Vec3<F> normal;              ///< of the first surface, towards the camera; 0 without one
   F depth{F(0)}, object{F(0)};
   bool filtered = false;  ///< whether any lane crosses something that lets light through
 
@@ -48,7 +49,10 @@ class SurfaceWalk {
       if (!any(found)) break;
 
       const Crossing<F> at = surfaces_.crossing(hit, found, origin, direction);
-      uncovered = select(found, uncovered + dim * at.uncovered, uncovered);
+      const Rgb<F> shown = dim * at.uncovered;
+      uncovered = select(found, uncovered + shown, uncovered);
+      if (const Mask<F> held = found & (at.uncovered > F(0)); frame_.layout.shadow && any(held))
+        holdouts += surfaces_.holdouts(at, shown, background, samples, held);
       shade(at, dim, samples, found);
       if (first) {
         albedo = select(found, at.albedo, albedo);
@@ -65,7 +69,7 @@ class SurfaceWalk {
       t = hit.t;
       active = passes;
     }
-    radiance[Frame::ungrouped] += uncovered * background;
+    radiance[Frame::ungrouped] += (uncovered - holdouts.seen) * background;
   }
 
  private:

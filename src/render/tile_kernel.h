@@ -30,6 +30,7 @@ struct PacketSums {
   std::vector<Group> groups;
   Rgb<F> transmittance, albedo;
   Vec3<F> normal;
+  HoldoutSums<F> holdouts;
   F depth, object;                         ///< of the first camera ray
   std::array<std::uint32_t, 2> samples{};  ///< in each half, of every pixel
 
@@ -77,7 +78,7 @@ struct PacketSums {
       first += samples[0], second += samples[1];
     }
     for (Group& group : groups) group = {};
-    transmittance = albedo = {}, normal = {}, samples = {};
+    transmittance = albedo = {}, normal = {}, holdouts = {}, samples = {};
     return std::popcount(bits<F>(active) & ~kept);
   }
 
@@ -105,6 +106,13 @@ struct PacketSums {
       feature(FilmLayout::transmittance + c, transmittance[c]);
       feature(FilmLayout::albedo + c, albedo[c]);
       feature(FilmLayout::normal + c, normal[c]);
+    }
+    if (!layout.shadow) return;
+    for (int c = 0; c < 3; ++c) {
+      sum(layout.plate() + c, holdouts.plate[c], nullptr, F(0));
+      feature(layout.holdouts() + c, holdouts.seen[c]);
+      feature(layout.holdouts() + 3 + c, holdouts.lit[c]);
+      feature(layout.holdouts() + 6 + c, holdouts.was_lit[c]);
     }
   }
 };
@@ -246,6 +254,7 @@ class TileKernel {
     for (std::size_t g = 0; g < sums_.groups.size(); ++g)
       sums_.groups[g].surface += walk.radiance[g] * n;
     sums_.transmittance += walk.uncovered * n;
+    if (frame_.layout.shadow) sums_.holdouts += walk.holdouts * n;
     sums_.albedo += walk.albedo * n;
     sums_.normal = sums_.normal + walk.normal * n;
     if (is_first) sums_.depth = walk.depth, sums_.object = walk.object;

@@ -120,11 +120,11 @@ Scene before_photograph(const std::string& text, const std::filesystem::path& fo
 
 Image laid_over(const Film& light, const Image& photograph) {
   const Image in_scatter = light.layer("in_scatter"), surface = light.layer("surface"),
-              transmittance = light.layer("transmittance");
+              transmittance = light.layer("transmittance"), shadow = light.layer("shadow");
   Image result = photograph;
   for (std::size_t i = 0; i < result.pixels.size(); ++i)
-    result.pixels[i] =
-        in_scatter.pixels[i] + surface.pixels[i] + transmittance.pixels[i] * photograph.pixels[i];
+    result.pixels[i] = in_scatter.pixels[i] + surface.pixels[i] +
+                       transmittance.pixels[i] * shadow.pixels[i] * photograph.pixels[i];
   return result;
 }
 

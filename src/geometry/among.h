@@ -1,0 +1,8 @@
+#pragma once
+
+namespace airlight {
+
+/// Which of a scene's objects are there.
+enum class Among { all, holdouts };
+
+}  // namespace airlight
