@@ -2,6 +2,7 @@
 // leaves what is there as it was.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <map>
 
 #include "support/program.h"
@@ -29,6 +30,7 @@ shape = {type = "box", min = [-1, -1, -1], max = [1, 1, 1]}
 constexpr const char* sun = R"([[lights]]
 type = "directional"
 irradiance = 3
+direction = [-1, -2, -0.5]
 group = "sun"
 )";
 
@@ -100,14 +102,14 @@ TEST(BadFiles, of_a_medium_are_told_apart) {
   desk.write("open.obj", tetrahedron(0, 0, 3));
   EXPECT_THAT(
       desk.refusal_of_scene(shaped_by("open.obj")),
-      testing::StartsWith("scene.toml:14:32: media.0.shape.file = \"open.obj\" is no closed "
+      testing::StartsWith("scene.toml:15:32: media.0.shape.file = \"open.obj\" is no closed "
                           "body: its edge from"));
   desk.write("crossing.obj", tetrahedron(0, 0, 4) + tetrahedron(0.5, 4, 4));
   EXPECT_THAT(desk.refusal_of_scene(shaped_by("crossing.obj")),
-              testing::StartsWith("scene.toml:14:32: media.0.shape.file = \"crossing.obj\" crosses "
+              testing::StartsWith("scene.toml:15:32: media.0.shape.file = \"crossing.obj\" crosses "
                                   "itself: its triangles"));
   EXPECT_EQ(desk.refusal_of_scene(shaped_by("none.obj")),
-            "scene.toml:14:32: media.0.shape.file names a model that is not to be had: none.obj: "
+            "scene.toml:15:32: media.0.shape.file names a model that is not to be had: none.obj: "
             "cannot be read: No such file or directory\n");
   EXPECT_EQ(
       desk.refusal_of_scene(std::string(head) + fog + sun + fog),
@@ -117,10 +119,11 @@ TEST(BadFiles, of_a_medium_are_told_apart) {
 
 TEST(BadFiles, of_a_gobo_are_told_apart) {
   const Desk desk;
-  const std::string scene = std::string(head) + fog +
-                            "[[lights]]\ntype = \"collimated\"\nposition = [0, 3, 0]\n"
-                            "direction = [0, -1, 0]\nirradiance = 1\n"
-                            "cross_section = {type = \"circle\"}\nimage = \"gobo.png\"\n";
+  const std::string scene =
+      std::string(head) + fog +
+      "[[lights]]\ntype = \"collimated\"\nposition = [0, 3, 0]\n"
+      "direction = [0, -1, 0]\nirradiance = 1\n"
+      "cross_section = {type = \"circle\", radius = 1}\nimage = \"gobo.png\"\n";
   const std::string where =
       "scene.toml:17:9: lights.0.image names a picture that is not to be had: ";
   EXPECT_EQ(desk.refusal_of_scene(scene),
@@ -183,12 +186,12 @@ TEST(BadFiles, have_no_group_of_lights_to_mix) {
 
 TEST(BadFiles, of_depths_fit_the_picture) {
   const Desk desk;
-  desk.write("depths.pfm", "Pf\n2 2\n-1\n" + std::string(16, '\x3f'));
+  desk.write("depths.pfm", "Pf\n4 1\n-1\n" + std::string(16, '\x3f'));
   EXPECT_EQ(
       desk.refusal_of_scene(std::string(head) +
                             "[[objects]]\ntype = \"depth_image\"\nfile = \"depths.pfm\"\n"),
       "scene.toml:9:8: objects.0.file names a depth image of other proportions: depths.pfm is "
-      "2 x 2 pixels; accepted: 32 x 24, the picture's, a size of the same proportions, or a "
+      "4 x 1 pixels; accepted: 32 x 24, the picture's, a size of the same proportions, or a "
       "camera of its own\n");
 }
 

@@ -127,6 +127,15 @@ TEST(Mix, is_a_render_under_other_lights) {
     }
 }
 
+TEST(Mix, needs_no_light_for_a_group) {
+  Scene scene = parse_scene(scene_text(20, Rgb<double>(1.), true), "scene.toml");
+  scene.lights.resize(1);  // as a program may do
+  scene.render.spp = 1;
+  const Film film = Renderer(scene).render(scene.render).film;
+  EXPECT_THAT(film.groups, ElementsAre("", "sun", "lamp"));
+  EXPECT_GT(film.radiance(20, 13).g, 0);
+}
+
 TEST(Mix, puts_out_and_can_be_done_again) {
   const Folder folder;
   render(folder / "a.exr", 5, as_is, ExrType::single);

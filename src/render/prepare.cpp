@@ -197,7 +197,7 @@ namespace {
 std::vector<int> light_group_indices(const Scene& scene) {
   const std::vector<std::string> names = light_group_names(scene);
   std::vector<int> indices(scene.lights.size(), Frame::ungrouped);
-  for (std::size_t i = 0; i < scene.light_groups.size(); ++i)
+  for (std::size_t i = 0; i < std::min(indices.size(), scene.light_groups.size()); ++i)
     indices[i] = int(std::ranges::find(names, scene.light_groups[i]) - names.begin());
   return indices;
 }
