@@ -70,7 +70,8 @@ double largest_difference(const Film& a, const Film& b) {
       for (const Estimate<double>& e : p.in_scatter)
         for (const Rgb<double>& c : {e.plain, e.analytic, e.occluded, e.unoccluded})
           all.insert(all.end(), {c.r, c.g, c.b});
-      for (const Rgb<double>& c : {p.surface, p.transmittance, p.albedo})
+      const auto& [seen, plate, lit, was_lit] = p.holdouts;
+      for (const Rgb<double>& c : {p.surface, p.transmittance, p.albedo, seen, plate, lit, was_lit})
         all.insert(all.end(), {c.r, c.g, c.b});
       all.insert(all.end(), {p.normal.x, p.normal.y, p.normal.z});
       return all;
@@ -165,12 +166,15 @@ TEST(Resume, of_a_render_stopped_anywhere_gives_what_it_would_have_been) {
 }
 
 TEST(Resume, changes_no_bit_where_passes_end_where_they_would_have) {
-  const Folder folder;
-  for (const char* spp : {"64", "128", "256"})
-    render(scene_with({std::string("render.spp=") + spp}), folder / "a.ckpt");
-  const Scene scene = scene_with({"render.spp=256"});
-  EXPECT_TRUE(same_bits(read_checkpoint(folder / "a.ckpt").film,
-                        Renderer(scene).render(scene.render).film));
+  for (const char* holdout : {"objects.0.holdout=false", "objects.0.holdout=true"}) {
+    const Folder folder;
+    for (const char* spp : {"64", "128", "256"})
+      render(scene_with({std::string("render.spp=") + spp, holdout}), folder / "a.ckpt");
+    const Scene scene = scene_with({"render.spp=256", holdout});
+    const Film film = read_checkpoint(folder / "a.ckpt").film;
+    EXPECT_TRUE(same_bits(film, Renderer(scene).render(scene.render).film)) << holdout;
+    EXPECT_EQ(film.layout.shadow, scene.objects[0].holdout);
+  }
 }
 
 TEST(Resume, counts_all_time_and_starts_no_ray_when_all_is_done) {
