@@ -16,7 +16,7 @@ using test::Colour;
 using test::Sheet;
 using test::Vector;
 
-constexpr int seeds = 48;
+constexpr int seeds = 80;
 
 struct Case {
   const char* name;
@@ -206,7 +206,7 @@ TEST_P(EveryArithmetic, sees_light_through_glass_and_cut_outs) {
       for (int s = 0; s < (ratio ? 4 : 1); ++s)
         for (int k = 0; k < 3; ++k) {
           const double seen = test::relative_standard_error(values[s][k]);
-          EXPECT_LT(seen, 1e-3) << names[s] << " cannot be judged: " << what;
+          EXPECT_LT(seen, 5e-4) << names[s] << " cannot be judged: " << what;
           const double z = test::z_score(values[s][k], want[s][k], rounding * want[s][k]);
           EXPECT_LT(std::abs(z), 4) << names[s] << ", channel " << k << ", " << what;
           worst = std::max(worst, std::abs(z)), least_seen = std::max(least_seen, seen);

@@ -79,7 +79,7 @@ const char* name_of(LightSelection s) {
 }
 
 TEST(LightSelection, leaves_every_sum_what_it_is) {
-  constexpr int seeds = 32;
+  constexpr int seeds = 64;
   double worst = 0;
   for (const bool rgb : {false, true}) {
     Scene scene = four_lights(rgb);
@@ -92,7 +92,7 @@ TEST(LightSelection, leaves_every_sum_what_it_is) {
       settings.estimator = std::string(placement.name) + "+" + form.name;
       settings.light_selection = selection;
       settings.isa = isa;
-      settings.spp = 64;
+      settings.spp = 256;
       const Estimate<double> want = form(open, lit, open);
       const Rgb<double> sums[4] = {want.plain, want.analytic, want.occluded, want.unoccluded};
       std::array<std::array<std::vector<double>, 3>, 4> values;
@@ -111,7 +111,7 @@ TEST(LightSelection, leaves_every_sum_what_it_is) {
             EXPECT_THAT(values[s][k], testing::Each(0));
             continue;
           }
-          EXPECT_LT(test::relative_standard_error(values[s][k]), 4e-3)
+          EXPECT_LT(test::relative_standard_error(values[s][k]), 1e-3)
               << settings.estimator << " " << name_of(selection);
           const double z = test::z_score(values[s][k], sums[s][k], 3e-6 * sums[s][k]);
           EXPECT_LT(std::abs(z), 4) << settings.estimator << " " << name_of(selection) << ", sum "

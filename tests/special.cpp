@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
+#include "airlight/math/sort.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -141,6 +144,37 @@ TYPED_TEST(EveryArithmetic, splits_an_exponential_in_order) {
     EXPECT_EQ(lane(exponential_fraction(F(Scalar<F>(y)), F(0)), 0), 0) << y;
     EXPECT_NEAR(lane(exponential_fraction(F(Scalar<F>(y)), F(1)), 0), y < 10 ? 1 : 0.5,
                 y < 10 ? 1e-3 : 0.5);
+  }
+}
+
+TYPED_TEST(EveryArithmetic, sorts_every_lane) {
+  using F = TypeParam;
+  std::mt19937 random(1);
+  for (int round = 0; round < 200; ++round) {
+    constexpr int most = 16;
+    const int n = 1 + round % most;
+    std::uint32_t drawn[most][lanes<F>];
+    for (auto& row : drawn)
+      for (std::uint32_t& x : row) x = round % 3 == 0 ? random() : random() % 4 << 30;
+    UInt<F> some[most], all[most];
+    for (int i = 0; i < most; ++i) some[i] = all[i] = load_bits<F>(drawn[i]);
+    sort_lanes(some, n);
+    sort_lanes<most>(all);
+    for (int k = 0; k < lanes<F>; ++k) {
+      const auto expect_sorted = [&](const UInt<F>* x, int count) {
+        std::vector<std::uint32_t> wanted, found;
+        for (int i = 0; i < count; ++i) {
+          wanted.push_back(drawn[i][k]);
+          if constexpr (lanes<F> == 1)
+            found.push_back(x[i]);
+          else
+            found.push_back(x[i].get(std::size_t(k)));
+        }
+        std::ranges::sort(wanted);
+        EXPECT_EQ(found, wanted);
+      };
+      expect_sorted(some, n), expect_sorted(all, most);
+    }
   }
 }
 

@@ -12,10 +12,7 @@ struct ClosedForm {
       "the exact radiance of parallel light among opaque objects; no noise";
 
   const char* unsupported(const Medium& medium, const Lights& light) const noexcept {
-    if (std::holds_alternative<Unbounded>(medium.shape) &&
-        std::holds_alternative<Directional>(light))
-      return "a directional light never arrives in an unbounded medium; give the medium a box or a "
-             "convex shape";
+    if (const char* reason = never_arrives(medium, light)) return reason;
     if (const auto* sun = std::get_if<Directional>(&light); sun && sun->angular_diameter > 0)
       return "closed_form is for parallel light: set angular_diameter = 0";
     if (const auto* beam = std::get_if<Collimated>(&light); beam && beam->image >= 0)

@@ -57,10 +57,7 @@ struct Sampled {
   static constexpr auto meaning = "samples along the camera ray: a placement and a form";
 
   const char* unsupported(const Medium& medium, const Lights& light) const noexcept {
-    if (std::holds_alternative<Unbounded>(medium.shape) &&
-        std::holds_alternative<Directional>(light))
-      return "a directional light never arrives in an unbounded medium; give the medium a box or a "
-             "convex shape";
+    if (const char* reason = never_arrives(medium, light)) return reason;
     if (intersect_every_step && !(std::holds_alternative<Equidistant>(placement) &&
                                   std::holds_alternative<MonteCarlo>(form)))
       return "edges = \"per_step\" is the plain march: it goes with rm (equidistant+monte_carlo) "
