@@ -301,9 +301,10 @@ TEST(Stretches, know_the_way_that_a_ray_goes_on_its_own) {
     for (int c = 0; c < 3; ++c) {
       const double whole = inside.depth(far_away)[c];
       const double value = whole * random.uniform(0.01, 0.99);
-      const double t = inside.distance_at(value, c);
+      const auto sigma_of = [c](const Medium& medium) { return medium.sigma_t[c]; };
+      const double t = inside.distance_at(value, sigma_of);
       back.see(std::abs(inside.depth(t)[c] - value) / value, one->all);
-      EXPECT_GE(inside.distance_at(whole * 1.01, c), far_away);
+      EXPECT_GE(inside.distance_at(whole * 1.01, sigma_of), far_away);
       EXPECT_GT(inside.sigma_t(t)[c], 0) << one->all;
       std::vector<double> breaks(inside.enter, inside.enter + inside.count);
       breaks.insert(breaks.end(), inside.leave, inside.leave + inside.count);

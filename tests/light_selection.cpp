@@ -246,18 +246,85 @@ TEST(LightSelection, is_refused_where_there_are_no_samples) {
   }
 }
 
-TEST(LightSelection, is_refused_on_paths) {
-  Scene scene = four_lights(false);
-  scene.render.light_selection = LightSelection::unoccluded;
-  scene.render.max_depth = 2;
-  try {
-    render(scene);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "render.max_depth = 2: paths ask every light at every vertex; accepted: 1, or "
-                 "light_selection = \"all\"");
+TEST(LightSelection, leaves_paths_what_they_are) {
+  struct Way {
+    const char* estimator;
+    Continuation continuation;
+    bool rgb, joined;
+  };
+  double worst = 0;
+  for (const Way& way :
+       {Way{"rewv", Continuation::distance, false, false},
+        Way{"reds", Continuation::distance, true, true},
+        Way{"rewv", Continuation::mix, true, false}, Way{"reds", Continuation::sample, false, true},
+        Way{"rewv", Continuation::whole_volume, false, false}}) {
+    Scene scene = four_lights(way.rgb);
+    scene.resolution = {8, 8};
+    scene.objects[0].material.albedo = Rgb<double>(0.7);
+    scene.render.estimator = way.estimator;
+    scene.render.continuation = way.continuation;
+    scene.render.max_depth = 4;
+    scene.render.spp = 64;
+    if (way.joined) {
+      Medium left = scene.media[0], right = left;
+      left.shape = Box{{-1, -1, -1}, {0.2, 1, 1}};
+      right.shape = Box{{0.2, -1, -1}, {1, 1, 1}};
+      scene.media = {left, right};
+    }
+    Renderer renderer(scene);
+    const auto sums = [&](LightSelection selection) {
+      RenderSettings settings = scene.render;
+      settings.light_selection = selection;
+      std::array<std::array<std::vector<double>, 3>, 3> values;
+      for (int seed = 0; seed < 24; ++seed) {
+        settings.seed = seed + (selection == LightSelection::all ? 100 : 0);
+        const Rendered rendered = renderer.render(settings);
+        EXPECT_EQ(rendered.rejected, 0);
+        const Estimate<double> e = mean_over_picture(rendered.film);
+        const Rgb<double> found[3] = {e.plain + e.occluded, e.plain + e.analytic,
+                                      e.plain + e.unoccluded};
+        for (int s = 0; s < 3; ++s)
+          for (int k = 0; k < 3; ++k) values[s][k].push_back(found[s][k]);
+      }
+      return values;
+    };
+    const auto all = sums(LightSelection::all);
+    for (const LightSelection selection : picking) {
+      const auto picked = sums(selection);
+      for (int s = 0; s < 3; ++s)
+        for (int k = 0; k < 3; ++k) {
+          const double error = std::hypot(standard_error(all[s][k]), standard_error(picked[s][k]));
+          const double z = (mean(picked[s][k]) - mean(all[s][k])) / error;
+          EXPECT_LT(std::abs(z), 4) << way.estimator << " " << int(way.continuation) << " "
+                                    << name_of(selection) << ", sum " << s << ", channel " << k;
+          EXPECT_LT(error, 0.02 * mean(all[s][k])) << way.estimator << " proves little";
+          worst = std::max(worst, std::abs(z));
+        }
+    }
   }
+  std::printf("[ measured ] worst z of a sum of paths: %.2f\n", worst);
+}
+
+TEST(LightSelection, by_the_closed_form_beats_the_blind_on_paths) {
+  Scene scene = four_lights(true);
+  scene.render.estimator = "mcwvds";
+  scene.render.max_depth = 4;
+  scene.render.spp = 16;
+  Renderer renderer(scene);
+  const auto variance = [&](LightSelection selection) {
+    scene.render.light_selection = selection;
+    std::vector<double> values;
+    for (int seed = 0; seed < 24; ++seed) {
+      scene.render.seed = seed;
+      values.push_back(mean_over_picture(renderer.render(scene.render).film).plain.g);
+    }
+    return standard_error(values) * standard_error(values);
+  };
+  const double by_closed_form = variance(LightSelection::unoccluded);
+  const double blind = variance(LightSelection::uniform);
+  EXPECT_LT(2 * by_closed_form, blind);
+  std::printf("[ measured ] variance of paths, uniform over unoccluded: %.2f\n",
+              blind / by_closed_form);
 }
 
 }  // namespace

@@ -90,17 +90,28 @@ struct Stretches {
     return value;
   }
 
-  /// Where channel c of the optical depth reaches a value > 0: the inverse of `depth`, for free
-  /// flights; far away where it never does.  [m]
-  F distance_at(F value, int c) const noexcept {
+  /// A direction of travel after light is scattered at t, drawn from the phase function there.
+  Vec3<F> onward(F t, Vec3<F> before, Vec2<F> u) const noexcept {
+    Vec3<F> direction = scattered_direction(medium(0).phase, before, u);
+    for (int j = 1; j < count * each_own; ++j) {
+      const Mask<F> here = holds(j, t);
+      if (any(here))
+        direction = select(here, scattered_direction(medium(j).phase, before, u), direction);
+    }
+    return direction;
+  }
+
+  /// Where the optical depth reaches a value > 0, for free flights; far away where it never does.
+  /// sigma_of(medium) is the extinction that counts, one for each lane.  [m]
+  template <class SigmaOf>
+  F distance_at(F value, SigmaOf&& sigma_of) const noexcept {
     F t(far_away);
     for (int j = 0; j < count; ++j) {
-      const F sigma(Scalar<F>(medium(j).sigma_t[c]));
+      if (!any(leave[j] > enter[j])) continue;
       F before(0);  // what earlier stretches take
       for (int k = 0; k < count; ++k)
-        if (k != j)
-          before = before + F(Scalar<F>(medium(k).sigma_t[c])) * length_before(k, enter[j]);
-      const F along = (value - before) / max(sigma, F(1e-30f));
+        if (k != j) before = fma(sigma_of(medium(k)), length_before(k, enter[j]), before);
+      const F along = (value - before) / max(sigma_of(medium(j)), F(1e-30f));
       const Mask<F> here = (value > before) & (along <= leave[j] - enter[j]);
       t = select(here, enter[j] + along, t);
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// Which samples of a camera ray ask which light.
+/// Which samples of a ray ask which light.
 #include <vector>
 
 #include "render/frame.h"
@@ -7,9 +7,9 @@
 namespace airlight {
 
 /// By what a light is picked where a sample asks one light only.
-template <Real F, class Space>
+template <Real F, class Space, DrawsPoints<F> Points>
 F light_weight(const Frame& frame, const Space& space, const MediumRay<F>& ray,
-               const Sampler<F>& sampler, int index) noexcept {
+               const Points& sampler, int index) noexcept {
   if (frame.light_selection == LightSelection::uniform) return F(1);
   const Medium& medium = frame.scene.media[0];
   return std::visit(
@@ -23,9 +23,9 @@ F light_weight(const Frame& frame, const Space& space, const MediumRay<F>& ray,
 
 /// Calls add(index, share) for every light; the share is null where every sample asks every light.
 /// `weights` has room for a number a light.
-template <Real F, class Space, class Add>
+template <Real F, class Space, DrawsPoints<F> Points, class Add>
 void for_each_light_share(const Frame& frame, const Space& space, const MediumRay<F>& ray,
-                          const Sampler<F>& sampler, std::vector<F>& weights, Add&& add) noexcept {
+                          const Points& sampler, std::vector<F>& weights, Add&& add) noexcept {
   const bool all = frame.light_selection == LightSelection::all;
   const int lights = int(frame.scene.lights.size());
   LightShare<F> share{F(0), F(0), F(0)};

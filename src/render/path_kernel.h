@@ -5,10 +5,12 @@
 /// in use; the order is that of the paths' numbers, whichever thread renders the tile.
 #include <airlight/free_flight.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "render/background.h"
 #include "render/camera_ray.h"
+#include "render/light_shares.h"
 #include "render/surface_light.h"
 
 namespace airlight {
@@ -67,9 +69,12 @@ class PathKernel {
         medium_(medium),
         space_(space),
         watcher_(watcher),
+        glows_(std::ranges::any_of(frame.scene.media,
+                                   [](const Medium& m) { return m.emission != Rgb<double>(); })),
         jobs_(std::uint64_t(tile.samples.count) * std::uint64_t(tile.rect.width) *
               std::uint64_t(tile.rect.height)),
         sums_(std::size_t(frame.layout.groups)),
+        weights_(frame.scene.lights.size(), F(0)),
         rows_(std::size_t(frame.layout.sums() + FilmLayout::added + frame.layout.features() -
                           frame.layout.holdouts())) {
     for (int y = 0; y < tile.rect.height; ++y)
@@ -161,35 +166,35 @@ class PathKernel {
       ray.dimmed = paths_.throughput;
     }
     const SurfaceLight<F, Space, PathSampler<F>> surfaces(frame_, medium_, space_, paths_.points);
-    if (medium_ && medium_->emission != Rgb<double>())
+    if (glows_)
       add(Frame::ungrouped,
           paths_.throughput * inside.emitted(ray.t_enter, ray.t_enter + ray.t_max),
           !paths_.via_surface, alive);
     Crossing<F> at{};
     if (any(found)) at = surfaces.crossing(hit, found, paths_.origin, paths_.direction);
 
-    if (!medium_ || medium_->is_grey())
-      segment<1>(hit, found, ray, at, surfaces);
-    else
-      segment<3>(hit, found, ray, at, surfaces);
+    // Media in pieces take three channels in any colour: it is their geometry that costs.
+    if constexpr (!InPieces<Space>)
+      if (!medium_ || medium_->is_grey()) return segment<1>(hit, found, inside, ray, at, surfaces);
+    segment<3>(hit, found, inside, ray, at, surfaces);
   }
 
-  template <int channels>
-  void segment(const Hit<F>& hit, Mask<F> found, const MediumRay<F>& ray, const Crossing<F>& at,
+  template <int channels, class Inside>
+  void segment(const Hit<F>& hit, Mask<F> found, const Inside& inside, const MediumRay<F>& ray,
+               const Crossing<F>& at,
                const SurfaceLight<F, Space, PathSampler<F>>& surfaces) noexcept {
-    static constexpr Medium vacuum;
-    const FreeFlight<F, channels> flight(medium_ ? *medium_ : vacuum, paths_.throughput, ray.t_max);
+    const auto flight = free_flight<channels>(inside, ray.t_enter, ray.t_max, paths_.throughput);
     const Rgb<F> dimmed = flight.dimmed();
     const Mask<F> from_fog = !(paths_.on_camera_ray | paths_.via_surface);
     const Mask<F> last = paths_.events + F(1) >= F(Scalar<F>(frame_.paths.max_depth));
 
     background(at, dimmed, from_fog, found, surfaces);
     if (any(first_segment_)) describe(hit, found, at);
-    Continued on{flight.draw(paths_.points.one(0, stream::flight)), F(0)};
+    Continued on{flight.draw(paths_.points.one(0, stream::flight)), F(0) > F(0), F(0)};
     if (any(ray.active)) in_scatter<channels>(ray, on);
     const Mask<F> reflects = found & (at.albedo.r + at.albedo.g + at.albedo.b > F(0));
     if (any(reflects)) surface_light(at, dimmed, from_fog, last, reflects, surfaces);
-    go_on(flight, on, ray, hit, at, last);
+    go_on(flight, on, inside, ray, hit, at, last);
   }
 
   /// What is behind everything. A picture there is seen by camera rays only: what it sends
@@ -215,25 +220,29 @@ class PathKernel {
 
   /// Where a path scatters next.
   struct Continued {
-    F t;    ///< from the start of the segment's part in the medium, or beyond its end  [m]
-    F pdf;  ///< of t in that part, where it comes from a sample of the estimator  [1/m]
+    F t;  ///< from the start of the segment's part in the medium, or beyond its end  [m]
+    Mask<F> from_sample;  ///< t comes from a sample of the estimator, else from a free flight
+    F pdf;                ///< of such a t in that part  [1/m]
   };
 
-  /// The light of every light scattered along the segment, by the estimator with one sample.
+  /// The light of every light scattered along the segment, by the estimator with one sample. A path
+  /// goes on from the sample of a light drawn blindly, or, where samples ask one light each, of the
+  /// light asked, if that is one to go on from.
   template <int channels>
   void in_scatter(const MediumRay<F>& ray, Continued& on) noexcept {
     const auto& sampled = std::get<Sampled>(frame_.estimator);
-    const auto lights = int(frame_.scene.lights.size());
     const int sources = frame_.paths.sample_sources;
     F chosen(0);  // its whole part is the light from whose sample the path goes on
     if (sources > 1) chosen = paths_.points.one(0, stream::light) * F(Scalar<F>(sources));
-    for (int i = 0, source = 0; i < lights; ++i) {
+    int source = 0;
+    const auto ask = [&](int i, const LightShare<F>* share) {
       const bool goes_on = sources > 0 && paths_go_on_from(frame_.scene.lights[std::size_t(i)]);
       const auto watch = [&](const WatchedSample<F>& sample) {
         if (!goes_on) return;
-        const Mask<F> mine = chosen >= F(Scalar<F>(source));
+        const Mask<F> mine = share ? sample.asked : ray.active & (chosen >= F(Scalar<F>(source)));
         on.t = select(mine, sample.t - ray.t_enter, on.t);
-        on.pdf = select(mine, sample.pdf, on.pdf);
+        on.pdf = select(mine, share ? sample.pdf * share->boost() : sample.pdf, on.pdf);
+        on.from_sample = on.from_sample | mine;
         ++source;
       };
       static_assert(half_of(0) == 0);
@@ -241,11 +250,12 @@ class PathKernel {
       std::visit(
           [&](const auto& light) {
             sampled.add<channels>(*medium_, space_, light, i, ray, {0, 1}, false, paths_.points,
-                                  frame_.world, sums, watch);
+                                  frame_.world, sums, watch, share);
           },
           frame_.scene.lights[std::size_t(i)]);
       add(i, sums[0], ray.active);
-    }
+    };
+    for_each_light_share(frame_, space_, ray, paths_.points, weights_, ask);
   }
 
   /// The light that a surface sends back along the segment.
@@ -269,9 +279,10 @@ class PathKernel {
   }
 
   /// Draws whether a path scatters, bounces, passes or ends, and where it goes from there.
-  template <int channels>
-  void go_on(const FreeFlight<F, channels>& flight, const Continued& on, const MediumRay<F>& ray,
-             const Hit<F>& hit, const Crossing<F>& at, Mask<F> last) noexcept {
+  template <class Flight, class Inside>
+  void go_on(const Flight& flight, const Continued& on, const Inside& inside,
+             const MediumRay<F>& ray, const Hit<F>& hit, const Crossing<F>& at,
+             Mask<F> last) noexcept {
     const PathSampler<F>& points = paths_.points;
     const Mask<F> alive = paths_.alive;
     const auto weight = [](const Rgb<F>& c) { return c.r + c.g + c.b; };
@@ -281,10 +292,14 @@ class PathKernel {
     Mask<F> scatters = alive & !last & ray.active;
     Rgb<F> scattered, arrived;
     if (frame_.paths.sample_sources > 0) {
-      // Every segment scatters that does not end at something to bounce off or to pass.
+      // Every segment with a sample scatters that does not end at something to bounce off or to
+      // pass.
       const F chance = select(beyond, flight.chance_to_scatter(), F(1));
-      scatters = scatters & (points.one(0, stream::flight) < chance);
-      scattered = flight.scattered(on.t, on.pdf * chance);
+      const Mask<F> drawn = points.one(0, stream::flight) < chance;
+      scatters =
+          scatters & ((on.from_sample & drawn) | ((!on.from_sample) & (on.t < flight.length)));
+      scattered =
+          select(on.from_sample, flight.scattered(on.t, on.pdf * chance), flight.scattered(on.t));
       arrived = flight.arrived();
     } else {
       scatters = scatters & (on.t < flight.length);
@@ -314,8 +329,9 @@ class PathKernel {
     watcher_.goes_on(paths_, select(scatters, scattered, select(passes, passed, bounced)), scatters,
                      passes | reflected);
     if (any(scatters)) {
-      const Vec3<F> point = ray.origin + ray.direction * (ray.t_enter + on.t);
-      const Vec3<F> onward = scattered_direction(medium_->phase, paths_.direction, u);
+      const F t = ray.t_enter + on.t;
+      const Vec3<F> point = ray.origin + ray.direction * t;
+      const Vec3<F> onward = inside.onward(t, paths_.direction, u);
       paths_.replace(scatters, point, normalize(onward), F(0), scattered);
     }
     if (any(reflected)) paths_.replace(reflected, at.above, off, F(0), bounced);
@@ -430,11 +446,13 @@ class PathKernel {
   const Medium* medium_;
   const Space& space_;
   Watcher& watcher_;
+  bool glows_;                     ///< whether any medium emits light
   std::uint64_t jobs_, next_ = 0;  ///< paths of the tile; of those, begun
   std::array<Job, std::size_t(lanes<F>)> job_;
   Paths<F> paths_;
   Mask<F> first_segment_ = paths_.alive;
   std::vector<PathSums<F>> sums_;  ///< by light group
+  std::vector<F> weights_;         ///< of lights on one segment
   Rgb<F> behind_;                  ///< every path's pixel of the background
   Rgb<F> transmittance_, albedo_;
   Vec3<F> normal_;
@@ -449,9 +467,7 @@ template <Real F, class Watcher>
 void render_paths(const Frame& frame, Tile& tile, Watcher& watcher) {
   with_space(frame.scene.media, [&](const Medium* medium, const auto& space) {
     using Space = std::remove_cvref_t<decltype(space)>;
-    // Settings that ask for paths in pieces have been refused.
-    if constexpr (!InPieces<Space>)
-      PathKernel<F, Space, Watcher>(frame, tile, medium, space, watcher).render();
+    PathKernel<F, Space, Watcher>(frame, tile, medium, space, watcher).render();
   });
 }
 

@@ -87,11 +87,6 @@ void check_paths(const Estimators& estimator, const RenderSettings& settings) {
         "render.max_depth = {}: edges = \"per_step\" is the plain march of light that scatters "
         "once; accepted: 1, or edges = \"cached\"",
         settings.max_depth));
-  if (settings.light_selection != LightSelection::all)
-    throw Error(
-        fmt::format("render.max_depth = {}: paths ask every light at every vertex; "
-                    "accepted: 1, or light_selection = \"all\"",
-                    settings.max_depth));
   const bool mixed = std::holds_alternative<Mixed>(sampled->placement);
   const bool whole = std::holds_alternative<WholeVolume>(sampled->placement);
   const bool fits = settings.continuation == Continuation::distance ||
@@ -148,14 +143,6 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
                     "with it is light_selection = \"all\"",
                     ClosedForm::name));
   if (const auto reason = cannot_be_joined(scene.media)) throw Error("media " + *reason);
-  const bool in_pieces =
-      scene.media.size() > 1 ||
-      (scene.media.size() == 1 && std::holds_alternative<Solid>(scene.media[0].shape));
-  if (in_pieces && settings.max_depth > 1)
-    throw Error(fmt::format(
-        "render.max_depth = {} cannot serve these media: light is followed beyond its first "
-        "scattering in one medium of type box, convex or unbounded only; accepted here: 1",
-        settings.max_depth));
   for (const Medium& medium : scene.media)
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
       if (const char* reason = std::visit(

@@ -3,18 +3,27 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "brute_force.h"
 
 namespace airlight::test {
 
 /// Light scattered again and again, as a plain walk of photons run backwards: one colour at a time,
-/// distances from the exponential distribution, every event where it happens to fall. A box of fog
-/// from -1 to 1, perhaps a floor and a ball, one parallel light. Nothing of the library's maths.
+/// every event where it happens to fall. Boxes of fog, by default one from -1 to 1, perhaps a floor
+/// and a ball, one parallel light. Flights go on from one possible event to the next of the densest
+/// fog, and most often nothing happens there: they know of no boundary. Nothing of the library's
+/// maths.
 struct AnalogWalk {
   static constexpr int orders = 8;
 
-  double sigma_t = 1, albedo = 1, g = 0;
+  /// A box of fog; no two of them overlap.
+  struct Fog {
+    double sigma_t = 1, albedo = 1, g = 0;
+    Vector min{-1, -1, -1}, max{1, 1, 1};
+  };
+
+  std::vector<Fog> fogs{Fog()};
   Vector sun;  ///< towards the light
   double irradiance = 1;
   std::optional<double> floor_albedo, ball_albedo;
@@ -28,14 +37,13 @@ struct AnalogWalk {
     std::array<double, orders> light{};
     double weight = 1;
     for (double& order : light) {
-      const auto [enter, exit] = box(ray);
       const Hit hit = nearest(ray);
-      const double flight = -std::log1p(-u(random)) / sigma_t;
-      if (enter < exit && enter + flight < std::min(exit, hit.t)) {
-        const Vector p = ray.origin + ray.direction * (enter + flight);
-        weight *= albedo;
-        order = weight * irradiance * phase(dot(ray.direction, sun)) * arriving(p);
-        ray = {p, turn(ray.direction, scattering_cosine(u(random)), u(random))};
+      const auto [fog, flight] = fly(ray, hit.t, random);
+      if (fog) {
+        const Vector p = ray.origin + ray.direction * flight;
+        weight *= fog->albedo;
+        order = weight * irradiance * phase(*fog, dot(ray.direction, sun)) * arriving(p);
+        ray = {p, turn(ray.direction, scattering_cosine(*fog, u(random)), u(random))};
       } else if (hit.t < far) {
         const Vector p = ray.origin + ray.direction * hit.t + hit.normal * 1e-9;
         weight *= hit.albedo;
@@ -58,14 +66,37 @@ struct AnalogWalk {
     double albedo = 0;
   };
 
-  static std::pair<double, double> box(const CameraRay& ray) {
+  /// Where a ray scatters before t_end, and in what; null: nowhere.
+  template <class Generator>
+  std::pair<const Fog*, double> fly(const CameraRay& ray, double t_end, Generator& random) const {
+    std::uniform_real_distribution<double> u;
+    double densest = 0, t = far, last = 0;
+    for (const Fog& fog : fogs) {
+      densest = std::max(densest, fog.sigma_t);
+      const auto [enter, exit] = inside(fog, ray);
+      if (enter < exit) t = std::min(t, enter), last = std::max(last, exit);
+    }
+    t_end = std::min(t_end, last);
+    while ((t -= std::log1p(-u(random)) / densest) < t_end) {
+      const Vector p = ray.origin + ray.direction * t;
+      for (const Fog& fog : fogs)
+        if (fog.min.x <= p.x && p.x <= fog.max.x && fog.min.y <= p.y && p.y <= fog.max.y &&
+            fog.min.z <= p.z && p.z <= fog.max.z) {
+          if (u(random) * densest < fog.sigma_t) return {&fog, t};
+          break;
+        }
+    }
+    return {nullptr, 0};
+  }
+
+  static std::pair<double, double> inside(const Fog& fog, const CameraRay& ray) {
     double enter = 0, exit = far;
     for (int k = 0; k < 3; ++k) {
       const double o = ray.origin[k], d = ray.direction[k];
-      const double a = (-1 - o) / d, b = (1 - o) / d;
+      const double a = (fog.min[k] - o) / d, b = (fog.max[k] - o) / d;
       enter = std::max(enter, std::min(a, b)), exit = std::min(exit, std::max(a, b));
     }
-    return {enter, exit};
+    return {enter, std::max(enter, exit)};
   }
 
   Hit nearest(const CameraRay& ray) const {
@@ -90,14 +121,20 @@ struct AnalogWalk {
   double arriving(const Vector& p) const {
     const CameraRay to_sun{p, sun};
     if (nearest(to_sun).t < far) return 0;
-    const auto [enter, exit] = box(to_sun);
-    return std::exp(-sigma_t * std::max(exit - enter, 0.));
+    double depth = 0;
+    for (const Fog& fog : fogs) {
+      const auto [enter, exit] = inside(fog, to_sun);
+      depth += fog.sigma_t * (exit - enter);
+    }
+    return std::exp(-depth);
   }
 
-  double phase(double cosine) const {
+  static double phase(const Fog& fog, double cosine) {
+    const double g = fog.g;
     return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
   }
-  double scattering_cosine(double u) const {
+  static double scattering_cosine(const Fog& fog, double u) {
+    const double g = fog.g;
     if (g == 0) return 1 - 2 * u;
     const double s = (1 - g * g) / (1 - g + 2 * g * u);
     return (1 + g * g - s * s) / (2 * g);

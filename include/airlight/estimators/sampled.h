@@ -18,6 +18,7 @@ struct WatchedSample {
   F pdf;              ///< [1/m]
   Rgb<F> weight;      ///< transmittance over pdf  [m]
   Rgb<F> visibility;  ///< 0 to 1
+  Mask<F> asked;      ///< the lanes whose sample asks this light
 };
 
 /// The samples that a light gets of a ray where each sample asks one light only: those whose
@@ -135,9 +136,9 @@ struct Sampled {
 
   /// The in-scatter of a ray if nothing stood in the light's way, as the mean of its channels: a
   /// weight to pick lights by.  [W/(m² sr)]
-  template <int channels, Real F, class Space, class L>
+  template <int channels, Real F, class Space, class L, DrawsPoints<F> Points>
   static F unoccluded(const Medium& medium, const Space& space, const L& light, int light_index,
-                      const MediumRay<F>& whole_ray, const Sampler<F>& sampler) noexcept {
+                      const MediumRay<F>& whole_ray, const Points& sampler) noexcept {
     const auto lit = lit_part(light, medium, space, whole_ray);
     const MediumRay<F>& ray = lit.ray;
     if (!any(ray.active)) return F(0);
@@ -206,7 +207,7 @@ struct Sampled {
               visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, d.asked);
             const F pdf = placed.pdf(d.t, d.at);
             watch(WatchedSample<F>{i, d.along, share ? pdf / share->boost() : pdf,
-                                   d.weight * ray.dimmed, visible});
+                                   d.weight * ray.dimmed, visible, d.asked});
             const Rgb<F> none, sent = select(d.asked, d.weight, none), arrived = d.weight * visible;
             if (one_half >= 0) {
               occluded[one_half] += arrived, unoccluded[one_half] += sent;
