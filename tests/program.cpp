@@ -143,6 +143,8 @@ TEST(Program, refuses_wrong_values_of_flags_and_touches_no_file) {
        "--samples-per-ray 3: render.samples_per_ray = 3 is not accepted: a power of two"},
       {{"--samples-per-ray", "-1"}, "--samples-per-ray -1: "},
       {{"--seed", "4294967296"}, "--seed 4294967296: "},
+      {{"--max-depth", "0"},
+       "--max-depth 0: render.max_depth = 0 is out of range: a whole number in [1, 65536]"},
       {{"--mix-weight", "1"}, "--mix-weight 1: "},
       {{"--threads", "-1"}, "--threads -1: "},
       {{"--size", "0x0"},
@@ -507,6 +509,18 @@ TEST(Probe, explains_in_words) {
   for (const char* word : {"meets \"sphere\" at ", "in the medium from ", "trapezoids",
                            "lit: ", "pdf", "visibility", "plain", "unoccluded", "radiance"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
+}
+
+TEST(Probe, says_in_one_line_that_it_shows_single_scattering_only) {
+  const Desk desk;
+  const std::string once = run({"probe", desk.scene, "--pixel", "12,8"}).out;
+  const std::string often = run({"probe", desk.scene, "--pixel", "12,8", "--max-depth", "8"}).out;
+  const std::string note =
+      "# shows light that scatters once; the picture also has what scatters up to 8 times\n";
+  const std::size_t second = once.find('\n') + 1;
+  EXPECT_EQ(often, once.substr(0, second) + note + once.substr(second));
+  const Outcome json = run({"probe", desk.scene, "--pixel", "12,8", "--max-depth", "8", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(json.out)["max_depth"], 8);
 }
 
 TEST(Probe, explains_one_ray_when_asked) {

@@ -251,6 +251,9 @@ TEST(SceneReader, says_what_is_accepted_where_a_number_is_out_of_range) {
             "fog.toml:2:9: image.width = 0 is out of range: a whole number in [1, 65535] pixels "
             "(of the picture)");
   EXPECT_THAT(error_of("[image]\nheight = 65536\n"), HasSubstr("is out of range"));
+  EXPECT_THAT(error_of("[render]\nmax_depth = 0\n"),
+              StartsWith("fog.toml:2:13: render.max_depth = 0 is out of range: a whole number in "
+                         "[1, 65536] (how often light may scatter"));
   EXPECT_THAT(error_of("[render]\nspp = 0\n"), StartsWith("fog.toml:2:7: render.spp = 0 is out"));
   EXPECT_THAT(error_of("[camera]\nfov = 180\n"), HasSubstr("a number in (0, 180) degrees"));
   EXPECT_THAT(error_of("[render]\nsamples_per_ray = 3\n"), HasSubstr("a power of two, or 0"));

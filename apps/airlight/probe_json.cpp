@@ -81,9 +81,9 @@ Json json(const ProbedRay& r, const Scene& scene) {
 std::string probe_json(const Probe& probe, const Scene& scene) {
   Json rays = Json::array();
   for (const ProbedRay& ray : probe.rays) rays.push_back(json(ray, scene));
-  const Json result = {{"pixel", {probe.x, probe.y}},    {"estimator", probe.estimator},
-                       {"mean", json(probe.mean)},       {"in_scatter", json(probe.in_scatter)},
-                       {"surface", json(probe.surface)}, {"radiance", json(probe.radiance)},
-                       {"rays", std::move(rays)}};
+  const Json result = {{"pixel", {probe.x, probe.y}},          {"estimator", probe.estimator},
+                       {"max_depth", probe.max_depth},         {"mean", json(probe.mean)},
+                       {"in_scatter", json(probe.in_scatter)}, {"surface", json(probe.surface)},
+                       {"radiance", json(probe.radiance)},     {"rays", std::move(rays)}};
   return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

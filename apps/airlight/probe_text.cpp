@@ -100,6 +100,10 @@ std::string probe_text(const Probe& probe, const Scene& scene, std::optional<std
   Writer writer;
   writer.line("pixel {},{} by {} in double, {} camera ray{}; t counts from the camera", probe.x,
               probe.y, probe.estimator, probe.rays.size(), probe.rays.size() == 1 ? "" : "s");
+  if (probe.max_depth > 1)
+    writer.line(
+        "# shows light that scatters once; the picture also has what scatters up to {} times",
+        probe.max_depth);
   for (std::size_t i = 0; i < probe.rays.size(); ++i)
     if (i == ray.value_or(i)) writer.ray(probe.rays[i], i, scene);
   writer.line("");

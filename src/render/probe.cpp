@@ -242,6 +242,8 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
                             size.width - 1, size.height - 1));
   RenderSettings in_double = settings;
   in_double.isa = InstructionSet::reference;
+  in_double.max_depth = 1;
+  check_settings(scene, settings);
   const World world(scene, settings.visibility);
   const Prepared prepared = prepare(scene, world, in_double);
 
@@ -254,6 +256,7 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
   Probe result;
   result.x = x, result.y = y;
   result.estimator = settings.estimator;
+  result.max_depth = int(settings.max_depth);
   result.rays = std::move(keeper.rays);
   for (int group = 0; group < frame.layout.groups; ++group) {
     const PixelSums sums = film.pixel(0, group);

@@ -69,15 +69,17 @@ struct ProbedRay {
   std::vector<ProbedLight> lights;
 };
 
-/// A pixel and its rays, computed in double by the renderer's own code.
+/// A pixel and its rays, computed in double by the renderer's own code: of light that scatters
+/// once, also where the picture follows it further.
 struct Probe {
   int x = 0, y = 0;
   std::string estimator;
+  int max_depth = 1;  ///< how often light may scatter in the picture
   std::vector<ProbedRay> rays;
   Estimate<double> mean;   ///< the pixel's four sums over the number of samples, emission included
   Rgb<double> in_scatter;  ///< [W/(m2 sr)]
   Rgb<double> surface;     ///< [W/(m2 sr)]
-  Rgb<double> radiance;    ///< their sum, what the picture shows  [W/(m2 sr)]
+  Rgb<double> radiance;    ///< their sum, what a picture of max_depth 1 shows  [W/(m2 sr)]
 };
 
 /// Probes a pixel of the picture; x counts from the left, y from the top. Throws Error if it is not
