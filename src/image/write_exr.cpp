@@ -129,13 +129,14 @@ void write_rows(Imf::OutputFile& out, std::vector<Block>& blocks, int rows_at_on
   std::vector<float> row;
   for (int first = 0; first < picture.height; first += rows_at_once) {
     const int count = std::min(rows_at_once, picture.height - first);
-    Imf::FrameBuffer frame;
-    for (Block& block : blocks) {
-      row.resize(std::size_t(picture.width) * block.names.size());
-      for (int y = 0; y < count; ++y) {
+    for (int y = 0; y < count; ++y)
+      for (Block& block : blocks) {
+        row.resize(std::size_t(picture.width) * block.names.size());
         fill_row(block.layer, first + y, row, path);
         store(row, block.type, block.rows.data() + std::size_t(y) * block.row_bytes);
       }
+    Imf::FrameBuffer frame;
+    for (Block& block : blocks) {
       const std::size_t pixel_bytes = block.names.size() * size_of(block.type);
       for (std::size_t c = 0; c < block.names.size(); ++c)
         frame.insert(block.names[c],

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "error.h"
@@ -256,6 +257,35 @@ std::int64_t Film::samples() const {
   return sum;
 }
 
+namespace {
+
+/// A row of pixels of all groups, read once for all layers that are asked for it in turn.
+class PixelRow {
+ public:
+  explicit PixelRow(const Film& film) : film_(film) {}
+
+  void read(int y) {
+    if (y == y_) return;
+    const auto width = std::size_t(film_.crop.width);
+    pixels_.resize(std::size_t(film_.layout.groups) * width);
+    for (int group = 0; group < film_.layout.groups; ++group)
+      for (std::size_t x = 0; x < width; ++x)
+        pixels_[std::size_t(group) * width + x] = film_.pixel(std::size_t(y) * width + x, group);
+    y_ = y;
+  }
+
+  const PixelSums& at(std::size_t x, int group = 0) const {
+    return pixels_[std::size_t(group) * std::size_t(film_.crop.width) + x];
+  }
+
+ private:
+  const Film& film_;
+  int y_ = -1;
+  std::vector<PixelSums> pixels_;
+};
+
+}  // namespace
+
 Picture Film::picture() const {
   Picture result;
   if (!runs.empty()) {
@@ -272,14 +302,16 @@ Picture Film::picture() const {
   if (crop.width != full.width || crop.height != full.height)
     result.crop = Crop{crop.x0, crop.y0, full.width, full.height};
 
+  const auto pixels = std::make_shared<PixelRow>(*this);
+  const int group_count = layout.groups;
   const auto add_layer = [&](std::string name, std::vector<std::string> channels, Storage storage,
-                             auto put) {  // put(index of a pixel, its place in the row)
+                             auto put) {  // put(x, the pixel's place in the row)
     const std::size_t count = channels.size();
     result.layers.push_back({std::move(name), std::move(channels),
-                             [this, put, count](int y, std::span<float> row) {
-                               const auto width = std::size_t(crop.width);
-                               for (std::size_t x = 0; x < width; ++x)
-                                 put(std::size_t(y) * width + x, &row[x * count]);
+                             [pixels, put, count](int y, std::span<float> row) {
+                               pixels->read(y);
+                               for (std::size_t x = 0; x * count < row.size(); ++x)
+                                 put(x, &row[x * count]);
                              },
                              storage});
   };
@@ -289,23 +321,23 @@ Picture Film::picture() const {
   /// Of all groups together, or of one.
   const auto sum_layer = [&](std::string name, auto value, Storage storage = Storage::colour,
                              int first = 0, int count = 0) {
-    const int end = count ? first + count : layout.groups;
-    add_layer(std::move(name), rgb, storage, [=, this](std::size_t i, float* out) {
+    const int end = count ? first + count : group_count;
+    add_layer(std::move(name), rgb, storage, [=](std::size_t x, float* out) {
       Rgb<double> sum;
-      for (int group = first; group < end; ++group) sum += value(pixel(i, group));
+      for (int group = first; group < end; ++group) sum += value(pixels->at(x, group));
       put_colour(sum, out);
     });
   };
   const auto mean_layer = [&](const char* name, auto member) {
-    add_layer(name, rgb, Storage::colour, [=, this](std::size_t i, float* out) {
-      const PixelSums p = pixel(i);
+    add_layer(name, rgb, Storage::colour, [=](std::size_t x, float* out) {
+      const PixelSums& p = pixels->at(x);
       put_colour(p.*member * per_sample(p), out);
     });
   };
   const auto number_layer = [&](const char* name, const char* channel, auto member,
                                 Storage storage) {
     add_layer(name, {channel}, storage,
-              [=, this](std::size_t i, float* out) { *out = float(pixel(i).*member); });
+              [=](std::size_t x, float* out) { *out = float(pixels->at(x).*member); });
   };
   const auto mean_of = [](auto member) {
     return [member](const PixelSums& p) { return mean_estimate(p).*member; };
@@ -318,21 +350,21 @@ Picture Film::picture() const {
   mean_layer("transmittance", &PixelSums::transmittance);
   if (layout.shadow)
     add_layer("shadow", rgb, Storage::colour,
-              [=, this](std::size_t i, float* out) { put_colour(shadow(pixel(i)), out); });
+              [=](std::size_t x, float* out) { put_colour(shadow(pixels->at(x)), out); });
   mean_layer("albedo", &PixelSums::albedo);
-  add_layer("normal", {"X", "Y", "Z"}, Storage::colour, [this](std::size_t i, float* out) {
-    const PixelSums p = pixel(i);
+  add_layer("normal", {"X", "Y", "Z"}, Storage::colour, [pixels](std::size_t x, float* out) {
+    const PixelSums& p = pixels->at(x);
     const Vec3<double> n = p.normal * per_sample(p);
     out[0] = float(n.x), out[1] = float(n.y), out[2] = float(n.z);
   });
   number_layer("depth", "Z", &PixelSums::depth, Storage::single);
   number_layer("object", "id", &PixelSums::object, Storage::id);
-  add_layer("standard_error", rgb, Storage::colour, [=, this](std::size_t i, float* out) {
-    const PixelSums first = pixel(i);
+  add_layer("standard_error", rgb, Storage::colour, [=](std::size_t x, float* out) {
+    const PixelSums& first = pixels->at(x);
     const auto [n0, n1] = first.samples;
     Rgb<double> apart;
     if (n0 > 0 && n1 > 0)
-      for (int group = 0; group < layout.groups; ++group) apart += halves_apart(pixel(i, group));
+      for (int group = 0; group < group_count; ++group) apart += halves_apart(pixels->at(x, group));
     // Half the difference, with the weights of unequal halves.
     const double scale = n0 > 0 && n1 > 0 ? std::sqrt(n0 * n1) / (n0 + n1) : 0;
     put_colour(Rgb<double>(std::abs(apart.r), std::abs(apart.g), std::abs(apart.b)) * scale, out);
