@@ -26,6 +26,7 @@ set(public_headers
   render/checkpoint_plan.h
   render/film.h
   render/film_layout.h
+  render/holdout_sums.h
   render/path_count.h
   render/probe.h
   render/render.h

@@ -442,8 +442,10 @@ TEST(Program, killed_fifty_times_ends_with_the_picture_that_it_would_have_made) 
     ASSERT_TRUE(outcome.status == 0 || outcome.status == 1000 + SIGKILL) << outcome.err;
     kills += outcome.status != 0;
     std::int64_t now = 0;
-    if (std::filesystem::exists(file))
-      for (const std::uint32_t count : read_checkpoint(file).film.runs[0].counts) now += count;
+    if (std::filesystem::exists(file)) {
+      const Checkpoint kept = read_checkpoint(file);
+      for (const std::uint32_t count : kept.film.runs[0].counts) now += count;
+    }
     EXPECT_GE(now, sum);
     progressed += now > sum;
     sum = now;
