@@ -193,6 +193,14 @@ TEST(Check, shows_what_fails) {
   EXPECT_EQ(count(out, "class=\"fails\""), 1u);
   EXPECT_THAT(out, HasSubstr("≤ 1.000 × 10⁻⁹"));
   EXPECT_THAT(out, HasSubstr("34.85 … 35.35"));
+  EXPECT_EQ(count(out, "reported"), 0u);
+}
+
+TEST(Check, says_that_a_value_without_a_range_is_only_reported) {
+  const std::string out = html(std::vector<Row>{{"time", 1.1, 0.9, -infinity, infinity}});
+  EXPECT_EQ(xml_fault(out), "") << out;
+  EXPECT_EQ(count(out, "class=\"reported\""), 1u);
+  EXPECT_EQ(count(out, "holds"), 0u);
 }
 
 // --- ticks

@@ -10,11 +10,17 @@
 namespace airlight {
 namespace {
 
-std::string range(double low, double high) {
-  if (low == -INFINITY && high == INFINITY) return "any";
+std::string range(const Row& row) {
+  const auto [low, high] = std::pair(row.low, row.high);
+  if (!row.is_held()) return "";
   if (low == -INFINITY) return "≤ " + number(high);
   if (high == INFINITY) return "≥ " + number(low);
   return number(low) + " … " + number(high);
+}
+
+const char* verdict(const Row& row) {
+  if (!row.holds()) return "✗ fails";
+  return row.is_held() ? "✓ holds" : "reported";
 }
 
 }  // namespace
@@ -32,9 +38,11 @@ std::string html(std::span<const Row> rows) {
     out += fmt::format(
         "<tr class=\"{}\"><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td class=\"number\">{}</td><td class=\"verdict\">{}</td></tr>\n",
-        row.holds() ? "holds" : "fails", rich(row.label),
-        row.published ? number(*row.published) : "", number(row.measured), range(row.low, row.high),
-        row.holds() ? "✓ holds" : "✗ fails");
+        !row.holds()    ? "fails"
+        : row.is_held() ? "holds"
+                        : "reported",
+        rich(row.label), row.published ? number(*row.published) : "", number(row.measured),
+        range(row), verdict(row));
   return out + "</tbody>\n</table>\n";
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,11 @@ struct Row {
   double low = 0;   ///< smallest value that holds; −infinity where any is small enough
   double high = 0;  ///< largest value that holds; infinity where any is large enough
 
+  /// False where no range was set: a value that is reported only.
+  bool is_held() const {
+    return low > -std::numeric_limits<double>::infinity() ||
+           high < std::numeric_limits<double>::infinity();
+  }
   bool holds() const { return measured >= low && measured <= high; }  ///< false for NaN
 };
 

@@ -45,6 +45,7 @@ tbody+tbody tr:first-child td{border-top:1px solid var(--line)}
 .formulas td:nth-child(2){
   font-family:"STIX Two Math","Cambria Math","Latin Modern Math",Georgia,serif;font-size:1.06em}
 .formulas td:nth-child(3){color:var(--muted)}
+.verdict{white-space:nowrap;color:var(--muted)}
 .holds .verdict{color:var(--good)}
 .fails td{font-weight:600}
 .fails .verdict{color:var(--bad)}
