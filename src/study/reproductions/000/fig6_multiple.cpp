@@ -24,7 +24,7 @@ constexpr Expected expected[] = {{"mcwvds", 25.90, 25.90},
                                  {"rees", 25.31, 24.64},
                                  {"rm", 24.95, 22.86}};
 constexpr std::size_t held = 3;  ///< the first of these, which are held to what was measured
-/// The published values of the first two are 0.01 dB apart, and so are ours but for noise.
+/// The published values of the first two are 0.01 dB apart; ours are level.
 constexpr double level = 0.2;
 
 /// The value that a part of all values lies below, linear between its neighbours.
@@ -72,9 +72,11 @@ void fig6_multiple(Reproduced& out) {
       "segment and goes on from the same sample (`continuation = \"sample\"`); the default, which "
       "draws a free flight, ends paths that leave the fog and stands at about 22 dB here.");
   out.page.paragraph(
-      "The order of the paper and its first three numbers are reached. Its spread of RM and REES "
-      "is not: with this scene they lie farther behind than published. Going on from equidistant "
-      "samples gives paths weights that vary, of which the paper says nothing.");
+      "The paper's first three numbers are reached, and its order but for the first two, which are "
+      "level here: over 4096 seeds MCWVDS stands at 26.222 dB and REDS at 26.226 dB, each known to "
+      "0.003 dB; the paper prints 0.01 dB between them, the other way round. Its spread of RM and "
+      "REES is not reached: with this scene they lie farther behind than published. Going on from "
+      "equidistant samples gives paths weights that vary, of which the paper says nothing.");
   out.page.checks(
       out.rows,
       fmt::format(
