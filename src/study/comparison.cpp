@@ -74,6 +74,7 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
     return;
   }
   RenderSettings reference = scene.render;
+  reference.light_selection = LightSelection::all;
   spread_rays(reference);
   if (settings.reference_spp == 0 && has_exact_reference(scene, renderer, reference)) {
     reference.estimator = "closed_form";

@@ -10,6 +10,7 @@ namespace airlight {
 /// Media".
 namespace paper_000 {
 void fig1a(Reproduced& out);
+void fig1b(Reproduced& out);
 void fig2(Reproduced& out);
 void fig4(Reproduced& out);
 void fig5(Reproduced& out);
@@ -30,6 +31,9 @@ constexpr Reproduction all[] = {
     {"000/fig1a", "A sunlit room at four samples a pixel",
      "Sun through windows into the fog of a furnished room, by every estimator at 4 spp.",
      paper_000::fig1a},
+    {"000/fig1b", "Ten beams of light at four samples a pixel",
+     "A gallery in haze: samples that ask the beam that matters, against blind ones and all beams.",
+     paper_000::fig1b},
     {"000/fig2", "Shafts of light laid over a photograph",
      "Dust and sun added to the picture of a real room, by holdouts and its depth image.",
      paper_000::fig2},

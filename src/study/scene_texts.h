@@ -7,5 +7,6 @@ namespace airlight {
 /// wherever it runs.
 extern const std::string sunroom_toml;
 extern const std::string destruction_toml;
+extern const std::string gallery_toml;
 
 }  // namespace airlight
