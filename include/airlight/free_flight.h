@@ -34,7 +34,7 @@ struct EvenWay {
 template <Real F, class Inside>
 struct UnevenWay {
   const Inside& inside;
-  F begin;  ///< where on the ray the flight begins, not before any stretch  [m]
+  F begin;  ///< where on the ray the flight begins; no stretch begins before it  [m]
 
   Rgb<F> sigma_s(F t) const noexcept { return inside.sigma_s(begin + t); }
   Channels<F, 3> sigma_t(F t) const noexcept { return channels_of(inside.sigma_t(begin + t)); }

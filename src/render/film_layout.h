@@ -21,15 +21,14 @@ constexpr int index(int x, int y) noexcept {
 }
 }  // namespace film_block
 
-/// Which numbers a film keeps of a pixel, and where: each is a row of 16 in every block. What adds
-/// up to radiance is kept in double, what only describes the picture in float.
+/// Which numbers a film keeps of a pixel, and where: each is a row of 16 in every block. Sums of
+/// radiance are kept in double; in float what describes the picture, what tells its error, and what
+/// stands in quotients. Floats are added in runs of at most a pass.
 ///
 ///     double, for each light group:  plain, analytic, occluded, unoccluded (as used), surface; RGB
 ///             then, of holdouts:     plate
-///     float:                         transmittance, albedo, normal, depth, object, then for each
-///     light group
-///                                    the same sums of the in-scatter, but of its second half of
-///                                    samples
+///     float:                         transmittance, albedo, normal, depth, object
+///             for each light group:  the in-scatter's sums again, of its second half of samples
 ///             then, of holdouts:     seen, lit, was_lit
 struct FilmLayout {
   int groups = 1;       ///< of lights; the first is of all that belongs to none

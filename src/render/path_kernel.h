@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "render/background.h"
 #include "render/camera_ray.h"
@@ -76,12 +77,12 @@ class PathKernel {
         sums_(std::size_t(frame.layout.groups)),
         weights_(frame.scene.lights.size(), F(0)),
         rows_(std::size_t(frame.layout.sums() + FilmLayout::added + frame.layout.features() -
-                          frame.layout.holdouts())) {
-    for (int y = 0; y < tile.rect.height; ++y)
-      for (int x = 0; x < tile.rect.width; ++x) {
-        const FilmPixels film = tile.film.at(tile.rect.x0 + x, tile.rect.y0 + y);
-        untouched_.push_back(film.samples[0] + film.samples[film_block::pixels] == 0);
-      }
+                          frame.layout.holdouts())),
+        features_(std::size_t(tile.rect.width * tile.rect.height * frame.layout.features())) {
+    for_each_pixel([&](const FilmPixels& film) {
+      const bool untouched = film.samples[0] + film.samples[film_block::pixels] == 0;
+      first_kept_.push_back(untouched ? std::numeric_limits<std::uint32_t>::max() : 0);
+    });
   }
 
   void render() noexcept {
@@ -93,6 +94,11 @@ class PathKernel {
       segment();
       deposit(bits<F>(before) & ~bits<F>(paths_.alive));
     }
+    const float* held = features_.data();
+    for_each_pixel([&](const FilmPixels& film) {
+      for (int row = 0; row < frame_.layout.features(); ++row, ++held)
+        film.features[row * film_block::pixels] += *held;
+    });
   }
 
  private:
@@ -102,6 +108,14 @@ class PathKernel {
     std::uint32_t sample = 0;
     int half = 0;
   };
+
+  /// Calls visit(where its numbers are in the film) for every pixel of the tile, row by row.
+  template <class Visit>
+  void for_each_pixel(Visit&& visit) const noexcept {
+    for (int y = 0; y < tile_.rect.height; ++y)
+      for (int x = 0; x < tile_.rect.width; ++x)
+        visit(tile_.film.at(tile_.rect.x0 + x, tile_.rect.y0 + y));
+  }
 
   /// Gives idle lanes the next paths.
   void refill() noexcept {
@@ -419,24 +433,23 @@ class PathKernel {
     constexpr int width = film_block::pixels;
     const FilmLayout& layout = frame_.layout;
     const Job& job = job_[std::size_t(i)];
+    const auto pixel = std::size_t(job.y * tile_.rect.width + job.x);
     const FilmPixels film = tile_.film.at(tile_.rect.x0 + job.x, tile_.rect.y0 + job.y);
+    float* const features = &features_[pixel * std::size_t(layout.features())];
     const int sums = layout.sums(), lane_index = i;
     const auto value = [&](int row) { return rows_[std::size_t(row)][std::size_t(lane_index)]; };
     for (int row = 0; row < sums; ++row) film.sums[row * width] += double(value(row));
-    for (int row = 0; row < FilmLayout::added; ++row)
-      film.features[row * width] += float(value(sums + row));
+    for (int row = 0; row < FilmLayout::added; ++row) features[row] += float(value(sums + row));
     for (int row = layout.holdouts(); row < layout.features(); ++row)
-      film.features[row * width] +=
-          float(value(sums + FilmLayout::added + row - layout.holdouts()));
+      features[row] += float(value(sums + FilmLayout::added + row - layout.holdouts()));
     if (job.half == 1)
       for (int g = 0; g < layout.groups; ++g)
         for (int k = 0; k < layout.estimate(); ++k)
-          film.features[(layout.second_half(g) + k) * width] +=
-              float(value(layout.in_scatter(g) + k));
-    if (job.sample == tile_.samples.first &&
-        untouched_[std::size_t(job.y * tile_.rect.width + job.x)]) {
-      film.features[FilmLayout::depth * width] = float(lane(depth_, i));
-      film.features[FilmLayout::object * width] = float(lane(object_, i));
+          features[layout.second_half(g) + k] += float(value(layout.in_scatter(g) + k));
+    if (job.sample < first_kept_[pixel]) {
+      first_kept_[pixel] = job.sample;
+      features[FilmLayout::depth] = float(lane(depth_, i));
+      features[FilmLayout::object] = float(lane(object_, i));
     }
     ++film.samples[job.half * width];
   }
@@ -459,8 +472,11 @@ class PathKernel {
   HoldoutSums<F> holdouts_;
   F depth_{F(0)}, object_{F(0)};
   std::vector<std::array<Scalar<F>, std::size_t(lanes<F>)>>
-      rows_;                     ///< sums on their way to the film
-  std::vector<bool> untouched_;  ///< pixels without a sample when the tile began
+      rows_;  ///< sums on their way to the film
+  /// The film's float rows of every pixel of the tile: added one by one, the floats of all passes
+  /// would drift.
+  std::vector<float> features_;
+  std::vector<std::uint32_t> first_kept_;  ///< by pixel: the first sample there; 0: it is older
 };
 
 template <Real F, class Watcher>
