@@ -119,6 +119,19 @@ TEST(AtomicFile, does_not_replace_a_device) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST(AtomicFile, writes_into_a_pipe_behind_a_link) {
+  const ScratchFolder folder;
+  int pipe[2];
+  ASSERT_EQ(::pipe(pipe), 0);
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(pipe[1]), folder / "a.txt");
+  write_text(folder / "a.txt", "through");
+  char read[16] = {};
+  EXPECT_EQ(::read(pipe[0], read, sizeof read), 7);
+  EXPECT_STREQ(read, "through");
+  EXPECT_EQ(folder.files(), 1U);
+  ::close(pipe[0]), ::close(pipe[1]);
+}
+
 TEST(AtomicFile, says_why_a_target_will_not_do) {
   const ScratchFolder folder;
   const std::string name = folder.path().string();

@@ -303,6 +303,42 @@ TEST(Png, is_read_in_16_bit_and_over_black) {
   EXPECT_THAT(read_image(folder / "grey.png").pixels, ElementsAre(value, value, value));
 }
 
+TEST(Png, of_numbers_has_no_transparent_grey) {
+  const ScratchFolder folder;
+  const std::string path = folder / "a.png";
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_set_IHDR(png, info, 64, 64, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_color_16 clear{};
+  png_set_tRNS(png, info, nullptr, 0, &clear);
+  png_write_info(png, info);
+  const std::vector<png_byte> row(64, 7);
+  for (int y = 0; y < 64; ++y) png_write_row(png, row.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  std::fclose(file);
+  EXPECT_THAT(error_of([&] { read_numbers(path); }),
+              EndsWith("it has a transparent grey; accepted: a grey PNG without alpha"));
+  EXPECT_EQ(read_image(path).at(63, 63, 2), linear_of_srgb[7]);
+}
+
+TEST(Exr, of_luminance_is_grey) {
+  const ScratchFolder folder;
+  Image grey(3, 2, 1);
+  for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = 0.25F * float(i);
+  Picture picture;
+  picture.width = 3, picture.height = 2;
+  picture.layers.push_back(layer_of("", {"Y"}, grey, Storage::single));
+  write_exr(folder / "y.exr", picture, ExrType::single);
+  const Image image = read_image(folder / "y.exr");
+  ASSERT_EQ(image.channels, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    EXPECT_EQ(image.pixels[i], grey.pixels[i / 3]);
+}
+
 TEST(Codes, are_those_of_the_file) {
   const ScratchFolder folder;
   const auto codes_of = [&](png_uint_32 format, const void* codes) {

@@ -524,6 +524,8 @@ TEST(Overrides, are_the_place_of_errors_that_come_of_them) {
               StartsWith("-D camera.position=[1, 2, 3]: camera looks nowhere"));
   EXPECT_THAT(error_of("[camera]\nup = [0, 1, 0]\n", {"camera.position=[0, 5, 0]"}),
               StartsWith("-D camera.position=[0, 5, 0]: camera looks along its up"));
+  EXPECT_EQ(error_of(fog + sun, {"lights.0.irradiance=1e999"}),
+            "-D lights.0.irradiance=1e999: the number is too large or too small to be held");
   // What is wrong in the file stays the file's.
   EXPECT_THAT(error_of(fog + "colour = 1\n", {"media.0.phase.type=isotropic"}),
               StartsWith("fog.toml:5:1: media.0.colour is not known here"));

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <mutex>
 
 #include "error.h"
 #include "flags.h"
@@ -156,9 +157,7 @@ struct Ending {
 /// Renders a scene into files; a frame of a run only if it is whole.
 Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
                       const Turn& turn = {}) {
-  // The camera sees no background; what it sends elsewhere stays.
-  if (manner.alpha)
-    scene.background_image = airlight::Image(scene.resolution.width, scene.resolution.height);
+  if (manner.alpha) scene.background_is_seen = false;
   check_memory(scene, manner.crop);
   airlight::Renderer renderer(scene);
   renderer.check(scene.render);
@@ -166,6 +165,12 @@ Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
 
   const Interrupt interrupt;
   ProgressLine line(!manner.quiet, turn.name);
+  std::mutex telling;  // of what more than one thread may come to tell
+  const auto tell = [&](const Error& error) {
+    const std::scoped_lock lock(telling);
+    line.clear();
+    fmt::print(stderr, "{}\n", error.what());
+  };
   std::stop_source stop;
   airlight::RenderControl control;
   control.crop = manner.crop;
@@ -173,14 +178,12 @@ Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
   control.stop = stop.get_token();
   control.on_progress = [&](const airlight::Progress& progress) {
     if (Interrupt::received()) stop.request_stop();
+    const std::scoped_lock lock(telling);
     line.show(progress);
   };
   if (!manner.checkpoint.empty()) {
     control.checkpoint = manner.checkpoint_plan();
-    control.checkpoint->on_failure = [&](const Error& error) {
-      line.clear();
-      fmt::print(stderr, "{}\n", error.what());
-    };
+    control.checkpoint->on_failure = tell;
   }
   const char* const instruction_set = renderer.instruction_set(scene.render);
   if (manner.schedule.preview > 0) {
@@ -192,8 +195,7 @@ Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
         outputs.write(
             picture_of(film, scene.render, manner.alpha, instruction_set, progress.seconds));
       } catch (const Error& error) {  // the render goes on: its last picture may succeed
-        line.clear();
-        fmt::print(stderr, "{}\n", error.what());
+        tell(error);
       }
       next = progress.seconds + manner.schedule.preview;
     };
@@ -247,7 +249,7 @@ int render_frames(const Flags& flags) {
     fmt::print("{} of {} frames are there already\n", skipped, range.count());
 
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const Scene scene = flags.scene.load(file, wanted[i]);
+    Scene scene = flags.scene.load(file, wanted[i]);
     Outputs outputs = flags.outputs.of_frame(wanted[i]);
     outputs.check();
     manner.checkpoint = airlight::numbered(flags.checkpoint, wanted[i]);
@@ -255,7 +257,7 @@ int render_frames(const Flags& flags) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     // Not 0, which is no limit.
     if (time_limit > 0) manner.schedule.time_limit = std::max(time_limit - spent.count(), 1e-9);
-    const Ending ending = render_picture(scene, outputs, manner, {name, i == 0});
+    const Ending ending = render_picture(std::move(scene), outputs, manner, {name, i == 0});
     if (ending.status != 0) return ending.status;
     if (!ending.is_written) {
       if (!flags.quiet)
@@ -280,8 +282,7 @@ int render(Flags& flags) {
     if (!flags.quiet) fmt::print("{}: there already\n", flags.outputs.names());
     return 0;
   }
-  const Scene scene = flags.scene.load();
-  return render_picture(scene, flags.outputs, manner).status;
+  return render_picture(flags.scene.load(), flags.outputs, manner).status;
 }
 
 }  // namespace

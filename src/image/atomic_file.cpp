@@ -84,6 +84,8 @@ int name_unnamed(int file, const std::filesystem::path& target) {
 AtomicFile::AtomicFile(std::filesystem::path target)
     : target_(std::move(target)), final_(follow_links(target_)) {
   struct stat status;
+  // A link to a pipe, as of /dev/stdout, leads to no path: the system follows it.
+  if (::stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) final_ = target_;
   const bool exists = ::stat(final_.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) throw unwritable(target_, errno);
   if (exists && S_ISDIR(status.st_mode)) throw unwritable(target_, EISDIR);

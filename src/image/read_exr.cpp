@@ -55,7 +55,7 @@ auto with_file(const Encoded& encoded, Read&& read) {
   }
 }
 
-/// Channels of the file to read as the image's channels.
+/// Channels of the file to read as the image's channels; "Y" alone is a grey beauty.
 std::vector<std::string> channels_of(const Encoded& encoded, const Imf::ChannelList& channels,
                                      const std::string& layer) {
   const std::string prefix = layer.empty() ? "" : layer + ".";
@@ -65,7 +65,7 @@ std::vector<std::string> channels_of(const Encoded& encoded, const Imf::ChannelL
   if (rgb.size() == 3) return rgb;
   if (layer.empty() && channels.findChannel("Y") != nullptr &&
       channels.findChannel("RY") == nullptr)
-    return {"Y", "Y", "Y"};
+    return {"Y"};
 
   std::vector<std::string> all;
   std::vector<std::string> in_layer;
@@ -169,7 +169,12 @@ void for_each_attribute(const Imf::InputFile& file, Visit&& visit) {
 
 Image decode_exr(const Encoded& encoded, const std::string& layer) {
   return with_file(encoded, [&](Imf::InputFile& file) {
-    return read_channels(encoded, file, channels_of(encoded, file.header().channels(), layer));
+    Image image =
+        read_channels(encoded, file, channels_of(encoded, file.header().channels(), layer));
+    if (!layer.empty() || image.channels != 1) return image;
+    Image colour(image.width, image.height);
+    for (std::size_t i = 0; i < colour.pixels.size(); ++i) colour.pixels[i] = image.pixels[i / 3];
+    return colour;
   });
 }
 

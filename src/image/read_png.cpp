@@ -134,6 +134,9 @@ Image decode_png_numbers(const Encoded& encoded) {
   if (!decoder.read_info()) fail_to_decode(encoded, source.error);
   if (png_get_color_type(decoder.png, decoder.info) != PNG_COLOR_TYPE_GRAY)
     fail_to_decode(encoded, "it has colours; accepted: a grey PNG without alpha");
+  // Libpng would write these as alpha, in rows twice as long.
+  if (png_get_valid(decoder.png, decoder.info, PNG_INFO_tRNS) != 0)
+    fail_to_decode(encoded, "it has a transparent grey; accepted: a grey PNG without alpha");
   const auto width = png_get_image_width(decoder.png, decoder.info);
   const auto height = png_get_image_height(decoder.png, decoder.info);
   check_size(encoded, width, height);

@@ -10,6 +10,7 @@ namespace airlight {
 /// later to the same effect.  [W/(m² sr)]
 template <Real F>
 Rgb<F> background_at(const Scene& scene, F x, F y) noexcept {
+  if (!scene.background_is_seen) return Rgb<F>();
   const Image& plate = scene.background_image;
   if (plate.pixels.empty()) return Rgb<F>(scene.background);
   alignas(64) Scalar<F> values[3][lanes<F>];

@@ -140,12 +140,13 @@ const std::vector<std::string> no_trait = {"spp", "seed", "first_sample", "isa",
 
 Traits traits_of(const Scene& scene, const RenderSettings& settings) {
   check_settings(scene, settings);
-  const auto& [camera, resolution, background, background_image, ambient, textures, objects, media,
-               lights, light_groups, unused_settings, assumptions] = scene;
+  const auto& [camera, resolution, background, background_image, background_is_seen, ambient,
+               textures, objects, media, lights, light_groups, unused_settings, assumptions] =
+      scene;
   Traits traits = {
       {"image", fmt::format("{} x {}", resolution.width, resolution.height)},
       {"camera", hash_of(camera)},
-      {"background", hash_of(background, background_image)},
+      {"background", hash_of(background, background_image, background_is_seen)},
       {"ambient", hash_of(ambient)},
       {"media", hash_of(media)},
       {"lights", hash_of(lights, light_groups)},

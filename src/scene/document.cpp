@@ -106,7 +106,10 @@ Value parse_value(const Override& change, const Source& source) {
                               one_line(std::string(error.description()))));
     double number = 0;  // such as ".5", which TOML wants as "0.5"
     const char* end = change.value.data() + change.value.size();
-    if (std::from_chars(change.value.data(), end, number).ptr == end) {
+    const auto [stop, failed] = std::from_chars(change.value.data(), end, number);
+    if (stop == end && failed == std::errc::result_out_of_range)
+      throw Error(fmt::format("{}: the number is too large or too small to be held", change.said));
+    if (stop == end && failed == std::errc()) {
       Value value = word();
       value.data = number;
       return value;

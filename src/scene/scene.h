@@ -87,8 +87,9 @@ struct Scene {
   Camera camera;
   Resolution resolution;
   Rgb<double> background{0, 0, 0};  ///< radiance behind everything  [W/(m2 sr)]
-  Image background_image;        ///< seen instead, pixel by pixel; of the picture's size, or empty
-  Rgb<double> ambient{0, 0, 0};  ///< radiance around surfaces; lights surfaces only  [W/(m2 sr)]
+  Image background_image;  ///< seen instead, pixel by pixel; of the picture's size, or empty
+  bool background_is_seen = true;  ///< by the camera; or its place stays black, to be filled later
+  Rgb<double> ambient{0, 0, 0};    ///< radiance around surfaces; lights surfaces only  [W/(m2 sr)]
   std::vector<Texture> textures;
   std::vector<Object> objects;
   std::vector<Medium> media;  ///< apart from each other
