@@ -25,8 +25,8 @@ constexpr const char* examples = R"(Examples:
   airlight merge a.ckpt b.ckpt -o fog.exr -o fog.ckpt
   airlight merge running.ckpt -o look.png
 
-Ranges of samples of one seed give what one render of all of them gives. Other seeds count as many
-samples as they have.
+Ranges of samples of one seed give, to rounding, what one render of all of them gives. Other seeds
+count as many samples as they have.
 )";
 
 Checkpoint sum_of(const std::vector<std::filesystem::path>& files) {
