@@ -40,6 +40,10 @@ std::filesystem::path follow_links(std::filesystem::path path) {
   return path;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& target) {
+  return target.has_parent_path() ? target.parent_path() : ".";
+}
+
 /// A file with a new name beside the target; `path` becomes that name, empty if there can be none.
 int create_beside(const std::filesystem::path& target, std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
@@ -55,8 +59,16 @@ int create_beside(const std::filesystem::path& target, std::filesystem::path& pa
 /// system has no such thing.
 int create_unnamed(const std::filesystem::path& target) {
   if (::access("/proc/self/fd", X_OK) != 0) return -1;  // it would get no name later
-  const auto folder = target.has_parent_path() ? target.parent_path() : ".";
-  return ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+  return ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+}
+
+/// Makes the name of a file last through a loss of power. A folder that may not be read, or a file
+/// system that knows no such thing, is no failure: the file is there.
+void keep_name(const std::filesystem::path& target) {
+  const int folder = ::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
 }
 
 /// Gives an unnamed file its name, in place of an older file of that name. No call of the system
@@ -136,8 +148,8 @@ void AtomicFile::commit() {
   if (unnamed_ && name_unnamed(file_, final_) != 0) fail(errno);
   const int file = std::exchange(file_, -1);
   if (::close(file) != 0) fail(errno);
-  if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);
+  if (unnamed_ || !temporary_.empty()) keep_name(final_);
   temporary_.clear();
 }
 

@@ -31,8 +31,9 @@ class AtomicFile {
   std::uint64_t position() const;
   void seek(std::uint64_t position);
 
-  /// Makes the file durable and gives it its name. Throws if this or any earlier write failed,
-  /// also when the writer in between (a library's destructor) swallowed that Error.
+  /// Makes the file durable and gives it its name, which is made durable too where the file system
+  /// can. Throws if this or any earlier write failed, also when the writer in between (a library's
+  /// destructor) swallowed that Error.
   void commit();
 
  private:
