@@ -114,6 +114,9 @@ TEST(Program, has_a_flag_for_every_setting_of_a_render) {
         EXPECT_THAT(help.out, HasSubstr("--" + key + " "));
         EXPECT_THAT(help.out, HasSubstr(meaning));
       });
+  EXPECT_THAT(help.out,
+              HasSubstr("without filter: a whole number in [0, 268435456], or all for 0"));
+  EXPECT_THAT(help.out, Not(HasSubstr("quotes"))) << "which a shell would take away";
 }
 
 // ---- what cannot be done
@@ -426,6 +429,11 @@ TEST(Render, takes_the_last_of_a_flag_given_twice_and_all_for_samples_per_ray) {
       desk.render("a.png", {"--spp", "4", "--spp", "8", "--samples-per-ray", "all"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr(" 8 spp"));
+  desk.render("all.pfm", {"--spp", "8", "--samples-per-ray=all"});
+  desk.render("zero.pfm", {"--spp", "8", "--samples-per-ray", "0"});
+  desk.render("four.pfm", {"--spp", "8", "--samples-per-ray", "4"});
+  EXPECT_EQ(bytes_of(desk / "all.pfm"), bytes_of(desk / "zero.pfm"));
+  EXPECT_NE(bytes_of(desk / "all.pfm"), bytes_of(desk / "four.pfm"));
 }
 
 TEST(Render, brightens_a_png_alone) {

@@ -69,15 +69,8 @@ void SceneFlags::preset(const std::string& path, const std::string& value) {
   changes_.emplace(changes_.begin(), path, value, path + " = " + value);
 }
 
-std::vector<airlight::Override> SceneFlags::changes() const {
-  std::vector<airlight::Override> changes = changes_;
-  for (airlight::Override& change : changes)
-    if (change.said == "--samples-per-ray all") change.value = "0";
-  return changes;
-}
-
 airlight::Scene SceneFlags::load() const {
-  airlight::Scene scene = airlight::load_scene(file_, changes());
+  airlight::Scene scene = airlight::load_scene(file_, changes_);
   check_estimator(scene, changes_);
   return scene;
 }
@@ -88,7 +81,7 @@ airlight::Scene SceneFlags::load(const airlight::SceneFile& file, std::int64_t f
   return scene;
 }
 
-airlight::SceneFile SceneFlags::open() const { return airlight::SceneFile(file_, changes()); }
+airlight::SceneFile SceneFlags::open() const { return airlight::SceneFile(file_, changes_); }
 
 void SceneFlags::tell(const airlight::Scene& scene) {
   if (!scene.assumptions.empty()) fmt::print(stderr, "{}\n", fmt::join(scene.assumptions, "; "));

@@ -27,8 +27,6 @@ class SceneFlags {
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  std::vector<airlight::Override> changes() const;
-
   std::filesystem::path file_;
   std::vector<airlight::Override> changes_;
 };
