@@ -76,6 +76,24 @@ TEST(Polyhedron, drops_planes_that_touch_nothing) {
   EXPECT_EQ(polyhedron_inside(planes).face_count, 7);
 }
 
+TEST(Polyhedron, counts_its_faces_when_the_planes_that_touch_nothing_are_gone) {
+  const auto ring = [](int count, double h) {
+    Planes planes = {{0, 0, 1, 1}, {0, 0, -1, 1}};
+    for (int i = 0; i < count; ++i) {
+      const double angle = 6.283185307179586 * i / count;
+      planes.push_back({std::cos(angle), std::sin(angle), 0, h});
+    }
+    return planes;
+  };
+  Planes planes = cube_planes;
+  for (const auto& plane : ring(100, 3)) planes.push_back(plane);
+  EXPECT_EQ(polyhedron_inside(planes).face_count, 6);
+  EXPECT_EQ(polyhedron_inside(ring(62, 1)).face_count, 64);
+  EXPECT_EQ(error_of([&] { polyhedron_inside(ring(63, 1)); }),
+            "make more than 64 faces: accepted are up to 64");
+  EXPECT_EQ(error_of([&] { polyhedron_inside(ring(255, 1)); }), "are 257: accepted are up to 256");
+}
+
 TEST(Polyhedron, stands_anywhere) {
   Planes planes = cube_planes;
   for (auto& [x, y, z, h] : planes) h += 1e6 * x - 2e6 * y + 3e6 * z;

@@ -106,14 +106,14 @@ bool is_face(const Plane& plane, const std::vector<Vec>& corners, double size) {
   return false;
 }
 
+void check_face_count(const Planes& planes) {
+  if (planes.size() > Convex::max_faces)
+    throw Error(fmt::format("make more than {} faces: accepted are up to {}", Convex::max_faces,
+                            Convex::max_faces));
+}
+
 Convex closed_polyhedron(Planes planes) {
   planes = without_duplicates(planes);
-  const auto check_count = [](std::size_t count) {
-    if (count > Convex::max_faces)
-      throw Error(fmt::format("make more than {} faces: accepted are up to {}", Convex::max_faces,
-                              Convex::max_faces));
-  };
-  check_count(planes.size());
   if (is_endless(planes)) throw Error("leave a side open: the polyhedron must be closed");
   const std::vector<Vec> corners = corners_of(planes);
   if (corners.empty()) throw Error("leave nothing: no point is inside all planes");
@@ -124,6 +124,7 @@ Convex closed_polyhedron(Planes planes) {
     if (plane.h - dot(plane.n, convex.centre) < 1e-9 * size || size == 0)
       throw Error("leave no volume: the polyhedron is flat");
   std::erase_if(planes, [&](const Plane& plane) { return !is_face(plane, corners, size); });
+  check_face_count(planes);
   convex.face_count = int(planes.size());
   std::ranges::copy(planes, convex.faces.begin());
   return convex;
@@ -132,6 +133,8 @@ Convex closed_polyhedron(Planes planes) {
 }  // namespace
 
 Convex polyhedron_inside(const std::vector<std::array<double, 4>>& numbers) {
+  if (numbers.size() > most_planes)
+    throw Error(fmt::format("are {}: accepted are up to {}", numbers.size(), most_planes));
   Planes planes;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const auto& [x, y, z, h] = numbers[i];
@@ -200,6 +203,7 @@ Convex hull_of(const std::vector<Vec>& given) {
         add_if_outside(a, -normalize(area));
       }
   if (planes.empty()) throw Error("span no volume: they all but lie on a line");
+  check_face_count(planes);  // the list ends there, and would leave a side open
   for (std::size_t i = 0; i < planes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (dot(planes[i].n, planes[j].n) < -1 + tolerance && planes[i].h + planes[j].h <= 2 * near)
