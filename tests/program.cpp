@@ -447,8 +447,9 @@ TEST(Render, brightens_a_png_alone) {
 // ---- compare
 
 Outcome compare(const Desk& desk, std::vector<std::string> flags) {
-  flags.insert(flags.begin(),
-               {"compare", desk.scene, "-o", desk / "report", "--estimators", "rm,rewv"});
+  flags.insert(flags.begin(), {"compare", desk.scene, "-o", desk / "report"});
+  if (std::ranges::find(flags, "--estimators") == flags.end())
+    flags.insert(flags.end(), {"--estimators", "rm,rewv"});
   return run(flags);
 }
 
@@ -462,6 +463,15 @@ TEST(Compare, writes_a_page_and_numbers) {
   EXPECT_THAT(page, HasSubstr("rewv at 4096 spp with seeds of its own, whose RMSE is about"));
   EXPECT_THAT(page, HasSubstr("RMSE over samples"));
   EXPECT_THAT(bytes_of(desk / "report/results.csv"), HasSubstr("rewv"));
+}
+
+TEST(Compare, measures_what_is_named_twice_once) {
+  const Desk desk;
+  const Outcome outcome = compare(desk, {"--estimators", "rewv,rm,rewv", "--spp", "2,1,2",
+                                         "--seeds", "1", "--reference-spp", "4"});
+  EXPECT_THAT(outcome.out, EndsWith("index.html: 4 rows\n")) << outcome.err;
+  const std::string table = bytes_of(desk / "report/results.csv");
+  EXPECT_LT(table.find("rewv"), table.find("rm,")) << "in the order they were named";
 }
 
 TEST(Compare, plots_no_single_points) {
@@ -490,6 +500,9 @@ TEST(Compare, refuses_what_it_would_not_heed_or_cannot_trust) {
                   "accepted: .exr, .pfm or .hdr");
   expect_one_line(compare(desk, {"--spp", "4", "--equal-time", "1"}), 2,
                   "--spp 4: is not accepted beside --equal-time");
+  expect_one_line(compare(desk, {"--estimators", "rm,magic"}), 2,
+                  "--estimators magic: render.estimator = \"magic\" is not known here; accepted: ");
+  EXPECT_FALSE(std::filesystem::exists(desk / "report"));
   EXPECT_EQ(compare(desk, {"--reference", desk / "a.exr", "--spp", "1", "--seeds", "1"}).status, 0);
 }
 

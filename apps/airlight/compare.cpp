@@ -30,9 +30,11 @@ constexpr const char* examples = R"(Examples:
 All samples of a pixel share the ray through its centre, unless --samples-per-ray says otherwise.
 )";
 
+/// The words of a list, each once.
 std::vector<std::string> words_of(const std::string& list) {
-  std::vector<std::string> words = CLI::detail::split(list, ',');
-  std::erase(words, "");
+  std::vector<std::string> words;
+  for (const std::string& word : CLI::detail::split(list, ','))
+    if (!word.empty() && std::ranges::find(words, word) == words.end()) words.push_back(word);
   return words;
 }
 
@@ -55,7 +57,10 @@ int compare(Flags& flags) {
                     "with commas between",
                     spp));
   std::ranges::sort(flags.settings.spp);
+  flags.settings.spp.erase(std::ranges::unique(flags.settings.spp).begin(),
+                           flags.settings.spp.end());
   const airlight::Scene scene = flags.scene.load();
+  airlight::check_comparison(scene, flags.settings);
   if (!flags.quiet) SceneFlags::tell(scene);
   airlight::make_folder(flags.folder);
   const airlight::Comparison comparison = airlight::compare_estimators(scene, flags.settings);

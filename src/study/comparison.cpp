@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "image/input.h"
+#include "render/prepare.h"
 #include "render/render.h"
 
 namespace airlight {
@@ -149,13 +150,23 @@ std::string warning_of(const Comparison& comparison) {
                      rows);
 }
 
-Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings) {
-  Renderer renderer(scene);
+void check_comparison(const Scene& scene, const ComparisonSettings& settings) {
   for (const std::string& estimator : settings.estimators) {
     RenderSettings one = scene.render;
     one.estimator = estimator;
-    renderer.check(one);
+    try {
+      estimator_for(one);
+    } catch (const Error& error) {
+      throw Error(fmt::format("--estimators {}: {}", estimator, error.what()));
+    }
+    check_settings(scene, one);
   }
+  if (!settings.reference_file.empty()) reference_of(settings.reference_file, scene.resolution);
+}
+
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings) {
+  check_comparison(scene, settings);
+  Renderer renderer(scene);
   Comparison comparison;
   make_reference(scene, settings, renderer, comparison);
 

@@ -44,8 +44,12 @@ struct Comparison {
 /// if there are none.
 std::string warning_of(const Comparison& comparison);
 
+/// Throws Error where an estimator is not known or can't serve the scene, or the picture to compare
+/// with does not fit; traces no ray.
+void check_comparison(const Scene& scene, const ComparisonSettings& settings);
+
 /// Renders every estimator at every count with every seed and measures its distance to the
-/// reference. Throws Error where an estimator can't serve the scene or the reference does not fit.
+/// reference. Throws what `check_comparison` throws.
 Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings);
 
 /// Writes index.html, results.csv and the pictures into a folder, which is made if it is missing.
