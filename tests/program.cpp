@@ -474,6 +474,16 @@ TEST(Compare, measures_what_is_named_twice_once) {
   EXPECT_LT(table.find("rewv"), table.find("rm,")) << "in the order they were named";
 }
 
+TEST(Compare, of_equal_time_takes_no_more_samples_than_are_accepted) {
+  const Desk desk;
+  // One pixel that sees nothing but the background costs next to nothing.
+  const Outcome outcome =
+      compare(desk, {"--equal-time", "1e6", "--seeds", "1", "--reference-spp", "1", "--estimators",
+                     "rm", "--size", "1x1", "-D", "camera.target=[0,0,9]"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(bytes_of(desk / "report/results.csv"), HasSubstr("\n16777216,rm,"));
+}
+
 TEST(Compare, plots_no_single_points) {
   const Desk desk;
   const Outcome outcome =

@@ -50,12 +50,12 @@ int compare(Flags& flags) {
   const std::string spp = flags.spp.value_or("1,2,4,8,16,32,64");
   flags.settings.spp = whole_numbers(spp, ',');
   if (flags.settings.spp.empty() || !std::ranges::all_of(flags.settings.spp, [](std::int64_t n) {
-        return n >= 1 && n <= 1 << 24;
+        return n >= 1 && n <= airlight::most_compared_spp;
       }))
     throw Error(
-        fmt::format("--spp {}: is no list of counts; accepted: whole numbers from 1 to 16777216 "
-                    "with commas between",
-                    spp));
+        fmt::format("--spp {}: is no list of counts; accepted: whole numbers from 1 to {} with "
+                    "commas between",
+                    spp, airlight::most_compared_spp));
   std::ranges::sort(flags.settings.spp);
   flags.settings.spp.erase(std::ranges::unique(flags.settings.spp).begin(),
                            flags.settings.spp.end());
@@ -101,7 +101,7 @@ Action set_up_compare(CLI::App& verb) {
           "--reference-spp", flags->settings.reference_spp,
           "samples of a computed reference; without it the exact closed form where there is one")
       ->type_name("")
-      ->check(CLI::Range(1, 1 << 24));
+      ->check(CLI::Range(std::int64_t{1}, airlight::most_compared_spp));
   verb.add_option("-o,--output", flags->folder, "folder for index.html, results.csv and pictures")
       ->required()
       ->type_name("");

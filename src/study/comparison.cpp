@@ -102,13 +102,15 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
                   2 * reference.spp, comparison.reference_error);
 }
 
-/// The count that an estimator reaches in the given time, from the speed of runs that double until
-/// they take a good part of it.
+/// The count that an estimator reaches in the given time, at most `most_compared_spp`, from the
+/// speed of runs that double until they take a good part of it.
 std::int64_t samples_in(double seconds, Renderer& renderer, RenderSettings settings) {
   for (settings.spp = 1;; settings.spp *= 2) {
     const double taken = renderer.render(settings).seconds;
-    if (taken > 0.4 * seconds || settings.spp >= (1 << 24))
-      return std::max<std::int64_t>(1, std::llround(double(settings.spp) * seconds / taken));
+    if (taken > 0.4 * seconds)
+      return std::clamp<std::int64_t>(std::llround(double(settings.spp) * seconds / taken), 1,
+                                      most_compared_spp);
+    if (settings.spp >= most_compared_spp) return most_compared_spp;
   }
 }
 

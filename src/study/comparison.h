@@ -10,10 +10,13 @@
 
 namespace airlight {
 
+/// The largest count that estimators are compared at.
+inline constexpr std::int64_t most_compared_spp = 1 << 24;
+
 /// What to compare on a scene and with what.
 struct ComparisonSettings {
   std::vector<std::string> estimators;  ///< short names or placement+form
-  std::vector<std::int64_t> spp;        ///< sample counts, ascending
+  std::vector<std::int64_t> spp;        ///< sample counts up to `most_compared_spp`, ascending
   int seeds = 4;                        ///< independent runs of each, from the scene's seed on
   double equal_time = 0;  ///< seconds for each estimator instead of `spp`; 0: off  [s]
   std::filesystem::path reference_file = {};  ///< a picture to compare with; empty: computed
