@@ -355,6 +355,24 @@ TEST(Render, writes_what_is_done_on_control_c) {
   }
 }
 
+TEST(Render, lives_through_a_control_c_that_it_was_told_to_ignore) {
+  const Desk desk;
+  const Outcome outcome = desk.render("a.pfm", with(endless, {"--preview", "0.1"}),
+                                      {.before = [] { std::signal(SIGINT, SIG_IGN); },
+                                       .during =
+                                           [&](pid_t program) {
+                                             const auto preview = [&] {
+                                               return std::filesystem::exists(desk / "a.pfm");
+                                             };
+                                             for (const int signal : {SIGINT, SIGTERM}) {
+                                               EXPECT_TRUE(wait_for(preview));
+                                               std::filesystem::remove(desk / "a.pfm");
+                                               kill(program, signal);
+                                             }
+                                           }});
+  EXPECT_EQ(outcome.status, 128 + SIGTERM) << outcome.err;
+}
+
 TEST(Render, previews_again_and_again) {
   const Desk desk;
   const Beside watcher = {.during = [&](pid_t program) {

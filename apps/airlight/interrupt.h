@@ -1,7 +1,7 @@
 #pragma once
 
 /// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks for an orderly end and the second one
-/// ends the program at once.
+/// ends the program at once. A signal that was ignored before stays ignored.
 class Interrupt {
  public:
   Interrupt();
