@@ -384,7 +384,7 @@ TEST(Program, goes_on_with_a_render_and_merges_its_parts) {
             0);
 
   const auto merged = run({"merge", desk / "b.ckpt", desk / "a.ckpt", "-o", desk / "sum.exr", "-o",
-                           desk / "sum.ckpt", "-o", desk / "sum.png", "--exr", "float"});
+                           desk / "sum.CKPT", "-o", desk / "sum.png", "--exr", "float"});
   EXPECT_EQ(merged.err, "");
   EXPECT_THAT(merged.out, HasSubstr("53 x 37, 96 spp of 2 files, "));
   const Image sum = read_image(desk / "sum.exr"), whole = read_image(desk / "whole.exr");
@@ -394,7 +394,7 @@ TEST(Program, goes_on_with_a_render_and_merges_its_parts) {
   EXPECT_EQ(said["spp"], "96");
   EXPECT_EQ(said["seed"], "0");
   EXPECT_EQ(said["estimator"], "rewv");
-  EXPECT_EQ(read_checkpoint(desk / "sum.ckpt").film.samples(), 96);
+  EXPECT_EQ(read_checkpoint(desk / "sum.CKPT").film.samples(), 96);
 
   render({"-o", desk / "c.png", "--seed", "9", "--checkpoint", desk / "c.ckpt"});
   EXPECT_THAT(run({"merge", desk / "a.ckpt", desk / "c.ckpt", "-o", desk / "two.exr"}).out,
@@ -402,11 +402,13 @@ TEST(Program, goes_on_with_a_render_and_merges_its_parts) {
   EXPECT_EQ(read_metadata(desk / "two.exr")["seed"], "0, 9");
 
   const std::vector<std::string> before = desk.folder.names();
-  expect_refused(run({"merge", desk / "a.ckpt", desk / "sum.ckpt", "-o", desk / "no.exr"}),
-                 "sum.ckpt: cannot be added to " + (desk / "a.ckpt") +
+  expect_refused(run({"merge", desk / "a.ckpt", desk / "sum.CKPT", "-o", desk / "no.exr"}),
+                 "sum.CKPT: cannot be added to " + (desk / "a.ckpt") +
                      ": samples 0 to 63 of seed 0 are there twice");
   expect_refused(run({"merge", desk.scene, "-o", desk / "no.exr"}),
                  "scene.toml: is no checkpoint of Airlight");
+  expect_refused(run({"merge", desk / "a.ckpt", "-o", desk / "no.jpg"}),
+                 "no.jpg: unknown picture format \".jpg\"; accepted: .exr, .pfm, .png, .ckpt");
   EXPECT_EQ(desk.folder.names(), before);
 }
 

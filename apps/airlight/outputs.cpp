@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "error.h"
+#include "extension.h"
 #include "flags.h"
 #include "image/numbered.h"
 
@@ -56,8 +57,9 @@ void Outputs::declare(CLI::App& verb, const std::string& kinds) {
 
 std::vector<std::filesystem::path> Outputs::take(const std::string& extension) {
   std::vector<std::filesystem::path> taken;
+  others_.push_back(extension);
   std::erase_if(files_, [&](const std::filesystem::path& file) {
-    if (file.extension() != extension) return false;
+    if (airlight::extension_of(file) != extension) return false;
     taken.push_back(file);
     return true;
   });
@@ -72,7 +74,7 @@ void Outputs::check() {
     if (airlight::is_pattern(file))
       throw airlight::Error(file.string() +
                             ": # stands for the number of a frame, which --frames gives");
-    airlight::check_picture_path(file);
+    airlight::check_picture_path(file, others_);
   }
 }
 

@@ -34,6 +34,7 @@ class Outputs {
 
  private:
   std::vector<std::filesystem::path> files_;
+  std::vector<std::string> others_;  ///< extensions that were taken out
   std::vector<airlight::Override> changes_;
   airlight::OutputOptions options_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "error.h"
+#include "extension.h"
 #include "image/atomic_file.h"
 #include "numbers.h"
 #include "scene_flags.h"
@@ -33,7 +34,7 @@ int probe(const Flags& flags) {
     throw Error("--pixel " + flags.pixel +
                 ": is no pixel; accepted: X,Y from the upper left corner, such as 128,60");
   const bool plot = !flags.plot.empty();
-  if (plot && flags.plot.extension() != ".svg")
+  if (plot && airlight::extension_of(flags.plot) != ".svg")
     throw Error(fmt::format("{}: unknown plot format \"{}\"; accepted: .svg", flags.plot.string(),
                             flags.plot.extension().string()));
   if (plot) airlight::check_writable(flags.plot);

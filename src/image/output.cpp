@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <vector>
 
 #include "error.h"
+#include "extension.h"
 #include "image/atomic_file.h"
 
 namespace airlight {
@@ -27,11 +27,9 @@ constexpr std::array formats{
                       auto& options) { write_png(path, picture, options.display); }},
 };
 
-const Format& format_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  const auto found = std::ranges::find(formats, extension, &Format::extension);
+const Format& format_of(const std::filesystem::path& path,
+                        const std::vector<std::string>& others = {}) {
+  const auto found = std::ranges::find(formats, extension_of(path), &Format::extension);
   if (found != formats.end()) return *found;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
@@ -39,6 +37,7 @@ const Format& format_of(const std::filesystem::path& path) {
                             (path / "picture.png").string()));
   std::vector<std::string> accepted;
   for (const Format& format : formats) accepted.push_back(format.extension);
+  accepted.insert(accepted.end(), others.begin(), others.end());
   throw Error(fmt::format("{}: unknown picture format \"{}\"; accepted: {}", path.string(),
                           path.extension().string(), fmt::join(accepted, ", ")));
 }
@@ -50,8 +49,8 @@ void write_picture(const std::filesystem::path& path, const Picture& picture,
   format_of(path).write(path, picture, options);
 }
 
-void check_picture_path(const std::filesystem::path& path) {
-  format_of(path);
+void check_picture_path(const std::filesystem::path& path, const std::vector<std::string>& others) {
+  format_of(path, others);
   check_writable(path);
 }
 

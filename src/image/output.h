@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "image/picture.h"
 #include "image/tone_map.h"
@@ -25,8 +27,9 @@ void write_picture(const std::filesystem::path& path, const Picture& picture,
 
 /// Throws what `write_picture` would throw for this path before its first pixel, so that a long
 /// render fails early: an unknown extension, a missing directory, a target that is a directory or
-/// may not be written.
-void check_picture_path(const std::filesystem::path& path);
+/// may not be written. `others` are extensions that the caller takes beside those of pictures.
+void check_picture_path(const std::filesystem::path& path,
+                        const std::vector<std::string>& others = {});
 
 /// OpenEXR: scan lines, ZIP, all layers, metadata as header attributes.
 void write_exr(const std::filesystem::path& path, const Picture& picture, ExrType type);

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "error.h"
+#include "extension.h"
 #include "scene/animation.h"
 #include "scene/reader.h"
 #include "scene/scene_document.h"
@@ -13,13 +11,6 @@
 
 namespace airlight {
 namespace {
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
 
 /// The moment that a document shows.  [s]
 double seconds_of(const Value& document) {

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "error.h"
+#include "extension.h"
 #include "scene/models/gltf.h"
 #include "scene/models/obj.h"
 
@@ -12,9 +11,7 @@ namespace airlight {
 namespace {
 
 std::variant<Model, MovingModel> read(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = extension_of(path);
   if (extension == ".obj") return load_obj(path);
   if (extension == ".gltf" || extension == ".glb") return load_gltf(path);
   throw Error(
