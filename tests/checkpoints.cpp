@@ -407,6 +407,8 @@ TEST(Program, goes_on_with_a_render_and_merges_its_parts) {
                      ": samples 0 to 63 of seed 0 are there twice");
   expect_refused(run({"merge", desk.scene, "-o", desk / "no.exr"}),
                  "scene.toml: is no checkpoint of Airlight");
+  expect_refused(run({"merge", desk / "a.ckpt", "-o", desk / "no.ckpt", "-o", desk / "no.ckpt"}),
+                 "no.ckpt: would be written twice");
   expect_refused(run({"merge", desk / "a.ckpt", "-o", desk / "no.jpg"}),
                  "no.jpg: unknown picture format \".jpg\"; accepted: .exr, .pfm, .png, .ckpt");
   EXPECT_EQ(desk.folder.names(), before);

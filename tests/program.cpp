@@ -200,6 +200,13 @@ TEST(Program, refuses_outputs_before_it_renders) {
   expect_one_line(desk.render("out.png", {"--size", "65535x65535"}), 2,
                   "65535 x 65535 pixels need ");
   expect_one_line(desk.render("good.png", with(endless, {"-o", desk / "bad.gif"})), 2, "bad.gif");
+  const std::string twice = "q.png: would be written twice; accepted: another file for each output";
+  expect_one_line(desk.render("q.png", with(endless, {"-o", desk / "q.png"})), 2, twice);
+  expect_one_line(desk.render("./q.png", with(endless, {"-o", desk / "q.png"})), 2, twice);
+  expect_one_line(desk.render("q.png", with(endless, {"--checkpoint", desk / "q.png"})), 2, twice);
+  expect_one_line(
+      desk.render("w.#.png", with(endless, {"--frames", "0..1", "--checkpoint", desk / "w.#.png"})),
+      2, "w.0.png: would be written twice");
   EXPECT_THAT(desk.folder.names(), ElementsAre("folder.png", "scene.toml"));
 }
 

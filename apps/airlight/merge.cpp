@@ -57,7 +57,7 @@ std::string remark(const airlight::Film& film) {
 int merge(Flags& flags) {
   const std::string names = flags.outputs.names();
   const auto kept = flags.outputs.take(".ckpt");
-  flags.outputs.check();
+  flags.outputs.check(kept);
   for (const auto& file : kept) airlight::check_writable(file);
   const Checkpoint sum = sum_of(flags.files);
   const airlight::Film& film = sum.film;

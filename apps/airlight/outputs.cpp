@@ -1,6 +1,7 @@
 #include "outputs.h"
 
 #include <optional>
+#include <set>
 
 #include "error.h"
 #include "extension.h"
@@ -44,6 +45,18 @@ struct Development {
   }
 };
 
+/// Throws Error if two of the paths, however they are written, lead to one file.
+void check_distinct(const std::vector<std::filesystem::path>& files) {
+  std::set<std::filesystem::path> places;
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
+    if (!places.insert(place).second)
+      throw airlight::Error(file.string() +
+                            ": would be written twice; accepted: another file for each output");
+  }
+}
+
 }  // namespace
 
 void Outputs::declare(CLI::App& verb, const std::string& kinds) {
@@ -66,7 +79,7 @@ std::vector<std::filesystem::path> Outputs::take(const std::string& extension) {
   return taken;
 }
 
-void Outputs::check() {
+void Outputs::check(const std::vector<std::filesystem::path>& beside) {
   const auto wanted = read_flags<Development>(changes_);
   options_ = {.exr = wanted.exr,
               .display = {.exposure = float(wanted.exposure), .tone_map = wanted.tonemap}};
@@ -76,6 +89,9 @@ void Outputs::check() {
                             ": # stands for the number of a frame, which --frames gives");
     airlight::check_picture_path(file, others_);
   }
+  std::vector<std::filesystem::path> all = files_;
+  all.insert(all.end(), beside.begin(), beside.end());
+  check_distinct(all);
 }
 
 Outputs Outputs::of_frame(std::int64_t frame) const {

@@ -15,9 +15,10 @@ class Outputs {
   /// Takes the files with an extension such as ".ckpt" out of those that pictures go to.
   std::vector<std::filesystem::path> take(const std::string& extension);
 
-  /// Throws airlight::Error if a file could not be written, a flag has a wrong value, or a name has
-  /// a place for the number of a frame.
-  void check();
+  /// Throws airlight::Error if a file could not be written, a flag has a wrong value, a name has a
+  /// place for the number of a frame, or a file would be written twice: as two of these, or as one
+  /// of those that a verb writes beside them.
+  void check(const std::vector<std::filesystem::path>& beside = {});
 
   /// The files of one frame, whose number goes where the names have ####. Throws airlight::Error
   /// for a name without.

@@ -108,6 +108,12 @@ struct Manner {
     if (checkpoint.empty()) check_no_checkpoint(flags);
   }
 
+  /// What is written beside the pictures.
+  std::vector<std::filesystem::path> files() const {
+    if (checkpoint.empty()) return {};
+    return {checkpoint};
+  }
+
   airlight::CheckpointPlan checkpoint_plan() const {
     return {
         .file = checkpoint, .every = schedule.checkpoint_every, .resume = resume, .on_failure = {}};
@@ -238,11 +244,11 @@ int render_frames(const Flags& flags) {
   std::vector<std::int64_t> wanted;
   for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
     Outputs outputs = flags.outputs.of_frame(frame);
-    outputs.check();
+    manner.checkpoint = airlight::numbered(flags.checkpoint, frame);
+    outputs.check(manner.files());
     file.check(frame);
     if (flags.skip_existing && outputs.exist()) continue;
     wanted.push_back(frame);
-    manner.checkpoint = airlight::numbered(flags.checkpoint, frame);
     if (!manner.checkpoint.empty()) check_place(manner.checkpoint_plan());
   }
   if (const auto skipped = range.count() - std::ssize(wanted); skipped > 0 && !flags.quiet)
@@ -251,8 +257,8 @@ int render_frames(const Flags& flags) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     Scene scene = flags.scene.load(file, wanted[i]);
     Outputs outputs = flags.outputs.of_frame(wanted[i]);
-    outputs.check();
     manner.checkpoint = airlight::numbered(flags.checkpoint, wanted[i]);
+    outputs.check(manner.files());
     const std::string name = fmt::format("frame {}, {} of {}", wanted[i], i + 1, wanted.size());
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     // Not 0, which is no limit.
@@ -273,8 +279,8 @@ int render_frames(const Flags& flags) {
 
 int render(Flags& flags) {
   if (!flags.frames.empty()) return render_frames(flags);
-  flags.outputs.check();
   const Manner manner(flags);
+  flags.outputs.check(manner.files());
   if (airlight::is_pattern(flags.checkpoint))
     throw Error(flags.checkpoint.string() +
                 ": # stands for the number of a frame, which --frames gives");
