@@ -100,6 +100,12 @@ TEST(Summary, of_a_picture_warns_of_fog_without_light) {
   EXPECT_THAT(warnings({lid, to, "media.0.emission=1"}), ::testing::IsEmpty());
   EXPECT_THAT(warnings({lid, to, "lights.0.irradiance=0"}), ::testing::IsEmpty())
       << "which is told before";
+  const Scene dark = parse_scene(room, "room", {lid, to});
+  RenderControl at_once;
+  at_once.time_limit = 1e-9;
+  const Film nothing = Renderer(dark).render(dark.render, at_once).film;
+  EXPECT_THAT(warnings_after(dark, nothing), ::testing::IsEmpty())
+      << "cut short, it shows nothing at all";
 }
 
 TEST(Summary, warns) {

@@ -251,7 +251,7 @@ std::vector<std::string> warnings_before(const Scene& scene) {
 }
 
 std::vector<std::string> warnings_after(const Scene& scene, const Film& film) {
-  if (!expects_light(scene)) return {};
+  if (film.samples() == 0 || !expects_light(scene)) return {};
   for (int group = 0; group < int(film.groups.size()); ++group)
     for (const PixelSums& pixel : film.pixels(group))
       if (mean_estimate(pixel).radiance() != Rgb<double>()) return {};

@@ -58,7 +58,8 @@ Summary summarise(const Scene& scene);
 /// The warnings that need no ray.
 std::vector<std::string> warnings_before(const Scene& scene);
 
-/// What a finished picture warns of: that no light reaches the fog in it.
+/// What a finished picture warns of: that no light reaches the fog in it. Of one that
+/// was cut short before every pixel had a sample, nothing.
 std::vector<std::string> warnings_after(const Scene& scene, const Film& film);
 
 }  // namespace airlight
