@@ -119,6 +119,17 @@ TEST(Program, has_a_flag_for_every_setting_of_a_render) {
   EXPECT_THAT(help.out, Not(HasSubstr("quotes"))) << "which a shell would take away";
 }
 
+TEST(Program, lists_one_chapter_when_asked) {
+  const Outcome lights = run({"list", "lights"});
+  EXPECT_EQ(lights.status, 0) << lights.err;
+  EXPECT_THAT(lights.out, StartsWith("Lights\n"));
+  EXPECT_THAT(run({"list"}).out, HasSubstr(lights.out));
+  EXPECT_THAT(lights.out, Not(HasSubstr("\nShapes\n")));
+  EXPECT_THAT(run({"list", "keys-of-lights"}).out, StartsWith("Keys of lights\n"));
+  expect_one_line(run({"list", "foo"}), 2,
+                  "list: foo is not known here; accepted: cross-sections, estimators, forms, ");
+}
+
 // ---- what cannot be done
 
 TEST(Program, refuses_a_command_line_in_one_line) {

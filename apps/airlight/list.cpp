@@ -1,9 +1,13 @@
 #include <airlight/estimators.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 
+#include "error.h"
+#include "scene/accepted.h"
 #include "scene/reference.h"
 #include "verbs.h"
 
@@ -31,18 +35,46 @@ std::vector<Chapter> reference() {
   return chapters;
 }
 
+/// "keys-of-lights" of "Keys of lights".
+std::string name_of(const Chapter& chapter) {
+  std::string name = chapter.title;
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return c == ' ' ? '-' : char(std::tolower(c)); });
+  return name;
+}
+
+/// The chapter of a name, or all if there is none. Throws Error for a name that is not known.
+std::vector<Chapter> chapters_named(const std::string& name) {
+  std::vector<Chapter> chapters = reference();
+  if (name.empty()) return chapters;
+  std::vector<std::string> names;
+  for (const Chapter& chapter : chapters) names.push_back(name_of(chapter));
+  std::erase_if(chapters, [&](const Chapter& chapter) { return name_of(chapter) != name; });
+  if (chapters.empty())
+    throw Error(fmt::format("list: {} is not known here; accepted: {}", name,
+                            accepted_words(std::move(names))));
+  return chapters;
+}
+
+struct Flags {
+  std::string chapter;
+  bool markdown = false;
+};
+
 }  // namespace
 
 Action set_up_list(CLI::App& verb) {
-  const auto markdown = std::make_shared<bool>(false);
-  verb.footer("Examples:\n  airlight list\n  airlight list --markdown\n");
-  verb.add_flag("--markdown", *markdown, "as a page: what docs/scene-reference.md holds");
-  return [markdown] {
-    const std::vector<Chapter> chapters = reference();
+  const auto flags = std::make_shared<Flags>();
+  verb.footer("Examples:\n  airlight list\n  airlight list lights\n  airlight list --markdown\n");
+  verb.add_option("CHAPTER", flags->chapter, "one chapter alone, such as lights")->type_name("");
+  verb.add_flag("--markdown", flags->markdown, "as a page: what docs/scene-reference.md holds");
+  return [flags] {
+    const std::vector<Chapter> chapters = chapters_named(flags->chapter);
     const std::string text =
-        *markdown ? fmt::format("# Scene reference\n\nWritten by `airlight list --markdown`.\n\n{}",
-                                as_markdown(chapters))
-                  : as_text(chapters);
+        flags->markdown
+            ? fmt::format("# Scene reference\n\nWritten by `airlight list --markdown`.\n\n{}",
+                          as_markdown(chapters))
+            : as_text(chapters);
     std::fwrite(text.data(), 1, text.size(), stdout);
     return 0;
   };
