@@ -602,6 +602,12 @@ TEST(Probe, plots_a_ray) {
   const Outcome outcome = run({"probe", desk.scene, "--pixel", "12,8", "-o", desk / "ray.svg"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(bytes_of(desk / "ray.svg"), StartsWith("<svg"));
+  EXPECT_THAT(outcome.out, HasSubstr("trapezoids"));
+  const Outcome quiet =
+      run({"probe", desk.scene, "--pixel", "12,8", "-o", desk / "quiet.svg", "--quiet"});
+  EXPECT_EQ(quiet.status, 0) << quiet.err;
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  EXPECT_EQ(bytes_of(desk / "quiet.svg"), bytes_of(desk / "ray.svg"));
 }
 
 TEST(Probe, refuses_what_is_not_there) {

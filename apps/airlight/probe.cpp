@@ -19,6 +19,7 @@ struct Flags {
   std::filesystem::path plot;
   std::optional<std::size_t> ray;
   bool json = false;
+  bool quiet = false;
 };
 
 constexpr const char* examples = R"(Examples:
@@ -44,7 +45,8 @@ int probe(const Flags& flags) {
     throw Error(fmt::format("--ray {}: is not there; accepted: 0 to {}, the rays of this pixel",
                             *flags.ray, found.rays.size() - 1));
   if (plot) airlight::write_text(flags.plot, probe_plot(found, flags.ray.value_or(0)));
-  fmt::print("{}", flags.json ? probe_json(found, scene) : probe_text(found, scene, flags.ray));
+  if (!flags.quiet)
+    fmt::print("{}", flags.json ? probe_json(found, scene) : probe_text(found, scene, flags.ray));
   return 0;
 }
 
@@ -65,5 +67,6 @@ Action set_up_probe(CLI::App& verb) {
       ->type_name("")
       ->take_last();
   verb.add_flag("--json", flags->json, "prints everything as JSON, with 512 steps along each ray");
+  verb.add_flag("--quiet", flags->quiet, "prints nothing but errors");
   return [flags] { return probe(*flags); };
 }
