@@ -14,17 +14,26 @@ struct ZeroedMemory {
   using value_type = T;
 
   T* allocate(std::size_t count) {
-    void* memory = ::mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    const std::size_t size = mapped(count);
+    void* memory =
+        ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
-    ::madvise(memory, count * sizeof(T), MADV_HUGEPAGE);
+    ::madvise(memory, size, MADV_HUGEPAGE);
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t count) noexcept { ::munmap(memory, count * sizeof(T)); }
+  void deallocate(T* memory, std::size_t count) noexcept { ::munmap(memory, mapped(count)); }
   void construct(T*) noexcept {}  // it is zero
   void construct(T* place, T value) noexcept { *place = value; }
 
   friend bool operator==(const ZeroedMemory&, const ZeroedMemory&) noexcept { return true; }
+
+ private:
+  /// Bytes of so many T: whole large pages, for only such a request begins at one.
+  static constexpr std::size_t mapped(std::size_t count) noexcept {
+    constexpr std::size_t large = std::size_t(2) << 20;
+    const std::size_t size = count * sizeof(T);
+    return size < large ? size : (size + large - 1) / large * large;
+  }
 };
 
 }  // namespace airlight
