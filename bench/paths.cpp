@@ -61,8 +61,8 @@ class Vertices {
     if (ray.active)
       sampled.add<3>(medium, space_, sun_, 0, ray, {0, 1}, false, paths.points, recorder, sums);
     if (hit.found) {
-      const SurfaceLight<float, Box::Space, PathSampler<float>> surfaces(frame_, &medium, space_,
-                                                                         paths.points);
+      const SurfaceLight<float, Box::Space, PathSampler<float>> surfaces(
+          frame_, &medium, space_, paths.points, Bundle::loose);
       const Crossing<float> at = surfaces.crossing(hit, true, paths.origin, paths.direction);
       const Vec3<float> w = uniform_cap(Vec3<float>(sun_.toward()), float(sun_.cap_height()),
                                         paths.points.two(0, stream::surface(0)));

@@ -1,6 +1,5 @@
 #include "shadow_rays.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include "geometry/flush_to_zero.h"
@@ -36,6 +35,7 @@ struct PictureOfRays {
   struct alignas(64) Packet {
     typename PacketCalls<width>::Ray ray;
     alignas(64) int valid[width];
+    Bundle bundle;
   };
   std::vector<Packet> packets;
 
@@ -48,8 +48,16 @@ struct PictureOfRays {
         for (int i = 0; i < width; ++i)
           lanes[std::size_t(i)] =
               rays_of_pixel(prepared, x0 + i % block_width, y0 + i / block_width);
-        for (std::size_t s = 0; s < lanes[0].size(); ++s) add_packet(lanes, s);
+        for (std::size_t s = 0; s < lanes[0].size(); ++s)
+          add_packet(lanes, s, s < surface_rays(prepared) ? Bundle::tight : Bundle::loose);
       }
+  }
+
+  /// How many of a pixel's rays its surface asks for.
+  static std::uint32_t surface_rays(const Prepared& prepared) {
+    if (!(std::get<Directional>(prepared.frame.scene.lights.at(0)).angular_diameter > 0)) return 1;
+    const std::uint32_t sharing = prepared.frame.samples_per_surface_ray;
+    return (prepared.samples.count + sharing - 1) / sharing;
   }
 
   /// What the renderer asks for a pixel, in its order.
@@ -67,10 +75,7 @@ struct PictureOfRays {
     const Hit<float> hit = frame.world.closest<float>(origin, direction, 0, true);
     Recorder recorder;
 
-    const std::uint32_t sharing = frame.samples_per_surface_ray;
-    const std::uint32_t count =
-        sun.angular_diameter > 0 ? (prepared.samples.count + sharing - 1) / sharing : 1;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < surface_rays(prepared); ++i) {
       const Vec3<float> w = uniform_cap(Vec3<float>(sun.toward()), float(sun.cap_height()),
                                         sampler.two(i, stream::surface(0)));
       bool faces = false;
@@ -105,8 +110,10 @@ struct PictureOfRays {
     return std::move(recorder.rays);
   }
 
-  void add_packet(const std::array<std::vector<ShadowRay>, width>& lanes, std::size_t sample) {
+  void add_packet(const std::array<std::vector<ShadowRay>, width>& lanes, std::size_t sample,
+                  Bundle bundle) {
     Packet packet;
+    packet.bundle = bundle;
     bool any = false;
     for (int i = 0; i < width; ++i) {
       const ShadowRay& r = lanes[std::size_t(i)][sample];
@@ -124,12 +131,12 @@ struct PictureOfRays {
   /// A bare loop over all packets. A query marks its ray by its end, so each packet is copied
   /// first: what a renderer has to write, too.
   void trace(RTCScene scene) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    PacketContext loose(Bundle::loose), tight(Bundle::tight);
     std::size_t blocked = 0;
     for (const Packet& packet : packets) {
       typename PacketCalls<width>::Ray ray = packet.ray;
-      PacketCalls<width>::occluded(packet.valid, scene, &context, &ray);
+      PacketContext& context = packet.bundle == Bundle::tight ? tight : loose;
+      PacketCalls<width>::occluded(packet.valid, scene, &context.embree, &ray);
       blocked += ray.tfar[0] < 0;
     }
     keep(blocked);

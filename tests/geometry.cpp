@@ -272,13 +272,23 @@ Mask<F> all_active() {
   return mask_from_bits<F>(0xffffffffu);
 }
 
-template <Real F>
+/// A way to ask a world.
+template <Real F, Visibility how, Bundle together = Bundle::loose>
+struct Way {
+  using Arithmetic = F;
+  static constexpr Visibility visibility = how;
+  static constexpr Bundle bundle = together;
+};
+
+template <class Way>
 std::vector<Rgb<double>> transmit(const World& world, const std::vector<Ray>& rays) {
+  using F = typename Way::Arithmetic;
   std::vector<Rgb<double>> result;
   for (std::size_t first = 0; first < rays.size(); first += lanes<F>) {
-    const Rgb<F> t = world.transmit(
-        gather3<F>(rays, first, &Ray::origin), gather3<F>(rays, first, &Ray::direction),
-        gather<F>(rays, first, [](const Ray& r) { return r.t_max; }), 0, all_active<F>());
+    const Rgb<F> t = world.transmit(gather3<F>(rays, first, &Ray::origin),
+                                    gather3<F>(rays, first, &Ray::direction),
+                                    gather<F>(rays, first, [](const Ray& r) { return r.t_max; }), 0,
+                                    all_active<F>(), Way::bundle);
     for (int i = 0; i < lanes<F> && result.size() < rays.size(); ++i)
       result.emplace_back(double(lane(t.r, i)), double(lane(t.g, i)), double(lane(t.b, i)));
   }
@@ -292,13 +302,14 @@ struct Found {
   float u, v;
 };
 
-template <Real F>
+template <class Way>
 std::vector<Found> closest(const World& world, const std::vector<Ray>& rays) {
+  using F = typename Way::Arithmetic;
   std::vector<Found> result;
   for (std::size_t first = 0; first < rays.size(); first += lanes<F>) {
     const Hit<F> hit = world.closest(
         gather3<F>(rays, first, &Ray::origin), gather3<F>(rays, first, &Ray::direction),
-        gather<F>(rays, first, [](const Ray& r) { return r.t_min; }), all_active<F>());
+        gather<F>(rays, first, [](const Ray& r) { return r.t_min; }), all_active<F>(), Way::bundle);
     const std::uint32_t found = bits<F>(hit.found);
     for (int i = 0; i < lanes<F> && result.size() < rays.size(); ++i) {
       const auto n = std::size_t(i);
@@ -332,22 +343,16 @@ double largest_difference(Rgb<double> a, Rgb<double> b) {
 // --- the tests
 // ------------------------------------------------------------------------------------
 
-template <class F, Visibility how>
-struct Way {
-  using Arithmetic = F;
-  static constexpr Visibility visibility = how;
-};
-
 template <class Way>
 class EveryWay : public ::testing::Test {};
 using Ways =
     ::testing::Types<Way<double, Visibility::embree>, Way<float, Visibility::embree>,
                      Way<FloatBatch, Visibility::embree>, Way<double, Visibility::analytic>,
-                     Way<float, Visibility::analytic>, Way<FloatBatch, Visibility::analytic>>;
+                     Way<float, Visibility::analytic>, Way<FloatBatch, Visibility::analytic>,
+                     Way<FloatBatch, Visibility::embree, Bundle::tight>>;
 TYPED_TEST_SUITE(EveryWay, Ways);
 
 TYPED_TEST(EveryWay, sees_what_brute_force_sees) {
-  using F = typename TypeParam::Arithmetic;
   constexpr int n = 4000;
   for (const bool opaque : {true, false}) {
     int doubtful = 0, blocked = 0, dimmed = 0, found = 0;
@@ -356,8 +361,8 @@ TYPED_TEST(EveryWay, sees_what_brute_force_sees) {
       const World world(scene, TypeParam::visibility);
       Random random(seed + 100);
       const std::vector<Ray> rays = any_rays(random, n);
-      const auto light = transmit<F>(world, rays);
-      const auto hits = closest<F>(world, rays);
+      const auto light = transmit<TypeParam>(world, rays);
+      const auto hits = closest<TypeParam>(world, rays);
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const Truth expected = truth(scene, rays[i]);
         if (expected.doubtful) {
@@ -394,13 +399,12 @@ TYPED_TEST(EveryWay, sees_what_brute_force_sees) {
 }
 
 TYPED_TEST(EveryWay, finds_nothing_in_an_empty_scene) {
-  using F = typename TypeParam::Arithmetic;
   const Scene scene;
   const World world(scene, TypeParam::visibility);
   Random random(1);
   const auto rays = any_rays(random, 20);
-  for (const auto& light : transmit<F>(world, rays)) EXPECT_EQ(light, Rgb<double>(1.));
-  for (const auto& hit : closest<F>(world, rays)) EXPECT_FALSE(hit.found);
+  for (const auto& light : transmit<TypeParam>(world, rays)) EXPECT_EQ(light, Rgb<double>(1.));
+  for (const auto& hit : closest<TypeParam>(world, rays)) EXPECT_FALSE(hit.found);
   EXPECT_TRUE(world.bounds().empty());
   EXPECT_FALSE(world.filters());
 }
@@ -424,14 +428,13 @@ TYPED_TEST(EveryWay, multiplies_tints_in_any_order) {
     // throughout.
     constexpr bool exact = std::same_as<F, double> && TypeParam::visibility == Visibility::analytic;
     const double tolerance = exact ? 1e-15 : 1e-6;
-    for (const auto& light :
-         transmit<F>(world, {{{0.3, 0.1, 9}, {0, 0, -1}}, {{0.7, -0.2, -3}, {0.01, 0.02, 1}}}))
+    for (const auto& light : transmit<TypeParam>(
+             world, {{{0.3, 0.1, 9}, {0, 0, -1}}, {{0.7, -0.2, -3}, {0.01, 0.02, 1}}}))
       EXPECT_LT(largest_difference(light, expected), tolerance * expected.r);
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TYPED_TEST(EveryWay, stops_at_the_end_of_the_segment) {
-  using F = typename TypeParam::Arithmetic;
   Scene scene;
   scene.objects = {pane({0, 0, 0}), pane({0, 0, 1}, glass(0.5, Rgb<double>(1.)))};
   const World world(scene, TypeParam::visibility);
@@ -440,14 +443,13 @@ TYPED_TEST(EveryWay, stops_at_the_end_of_the_segment) {
   const double ends[] = {0, 0.99, 1.01, 1.49, 1.51, 100, far_away};
   for (std::size_t i = 0; i < 7; ++i) rays[i].t_max = ends[i];
   std::vector<double> seen;
-  for (const auto& light : transmit<F>(world, rays)) seen.push_back(light.g);
+  for (const auto& light : transmit<TypeParam>(world, rays)) seen.push_back(light.g);
   EXPECT_THAT(seen, ::testing::ElementsAre(1, 1, 0.5, 0.5, 0, 0, 0));
   // Behind its origin a ray sees nothing.
-  EXPECT_EQ(transmit<F>(world, {{{0.3, 0.1, -1}, {0, 0, -1}}})[0].r, 1);
+  EXPECT_EQ(transmit<TypeParam>(world, {{{0.3, 0.1, -1}, {0, 0, -1}}})[0].r, 1);
 }
 
 TYPED_TEST(EveryWay, goes_from_one_surface_to_the_next) {
-  using F = typename TypeParam::Arithmetic;
   Random random(3);
   for (unsigned seed = 20; seed < 26; ++seed) {
     const Scene scene = any_scene(seed);
@@ -468,7 +470,7 @@ TYPED_TEST(EveryWay, goes_from_one_surface_to_the_next) {
       if (doubtful) continue;
       std::size_t met = 0;
       for (; met <= surfaces; ++met) {
-        const Found hit = closest<F>(world, {ray})[0];
+        const Found hit = closest<TypeParam>(world, {ray})[0];
         if (!hit.found) break;
         ASSERT_GT(hit.t, ray.t_min);
         ray.t_min = hit.t;
@@ -495,7 +497,6 @@ std::vector<Ray> rays_at_seams(const Scene& ball, int n, bool corners) {
 }
 
 TYPED_TEST(EveryWay, lets_no_light_through_the_seams_of_triangles) {
-  using F = typename TypeParam::Arithmetic;
   const Scene scene = ball_of_triangles(12, 18);
   const World world(scene, TypeParam::visibility);
   const bool embree = TypeParam::visibility == Visibility::embree;
@@ -503,8 +504,8 @@ TYPED_TEST(EveryWay, lets_no_light_through_the_seams_of_triangles) {
     const int n = embree ? 100'000 : 5000;
     const std::vector<Ray> rays = rays_at_seams(scene, n, corners);
     int leaks = 0;
-    for (const auto& light : transmit<F>(world, rays)) leaks += light.r > 0;
-    for (const Found& hit : closest<F>(world, rays)) leaks += !hit.found;
+    for (const auto& light : transmit<TypeParam>(world, rays)) leaks += light.r > 0;
+    for (const Found& hit : closest<TypeParam>(world, rays)) leaks += !hit.found;
     // Six edges meet in a corner; where rounding alone says on which side of each the ray is, it
     // slips through about once in 2^5 times if edges are exact, and (measured) once in 14 000 if
     // they overlap a little as Embree's do.
@@ -513,7 +514,6 @@ TYPED_TEST(EveryWay, lets_no_light_through_the_seams_of_triangles) {
 }
 
 TYPED_TEST(EveryWay, counts_a_pane_once_on_its_diagonal) {
-  using F = typename TypeParam::Arithmetic;
   Scene scene;
   scene.objects = {pane({0, 0, 0}, glass(0.5, Rgb<double>(1.))),
                    pane({0, 0, -1}, glass(0.5, Rgb<double>(1.)))};
@@ -524,11 +524,10 @@ TYPED_TEST(EveryWay, counts_a_pane_once_on_its_diagonal) {
     const double x = float(random(-0.5, 0.5)), w = float(random(-0.25, 0.25));
     rays.push_back({{x, x, 1}, {w, w, -1}});
   }
-  for (const auto& light : transmit<F>(world, rays)) EXPECT_EQ(light.g, 0.25);
+  for (const auto& light : transmit<TypeParam>(world, rays)) EXPECT_EQ(light.g, 0.25);
 }
 
 TYPED_TEST(EveryWay, knows_where_on_a_sphere_it_is) {
-  using F = typename TypeParam::Arithmetic;
   const Vec3<double> centre(0.5, -0.25, 2);
   Scene scene;
   scene.objects = {sphere(centre, 0.75)};
@@ -545,7 +544,7 @@ TYPED_TEST(EveryWay, knows_where_on_a_sphere_it_is) {
       const Vec3<double> d(axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0);
       rays.push_back({centre - d * 3, d});
     }
-  const auto hits = closest<F>(world, rays);
+  const auto hits = closest<TypeParam>(world, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ASSERT_TRUE(hits[i].found);
     const SurfacePoint point = world.surface(0, 0, hits[i].u, hits[i].v);
@@ -556,16 +555,15 @@ TYPED_TEST(EveryWay, knows_where_on_a_sphere_it_is) {
 }
 
 TYPED_TEST(EveryWay, blocks_light_between_the_inside_and_the_outside_of_a_sphere) {
-  using F = typename TypeParam::Arithmetic;
   Scene scene;
   scene.objects = {sphere({0, 0, 0}, 1)};
   const World world(scene, TypeParam::visibility);
-  const auto light = transmit<F>(world, {{{0, 0, 0.5}, {0, 0, 1}, 0, 0.4},
-                                         {{0, 0, 0.5}, {0, 0, 1}, 0, 0.6},
-                                         {{0, 0, 0.5}, {0, 0, 1}},
-                                         {{0, 0, 1.001}, {0, 0, 1}},
-                                         {{0, 0, 3}, {0, 0, -1}, 0, 1.9},
-                                         {{0, 0, 3}, {0, 0, -1}, 0, 2.1}});
+  const auto light = transmit<TypeParam>(world, {{{0, 0, 0.5}, {0, 0, 1}, 0, 0.4},
+                                                 {{0, 0, 0.5}, {0, 0, 1}, 0, 0.6},
+                                                 {{0, 0, 0.5}, {0, 0, 1}},
+                                                 {{0, 0, 1.001}, {0, 0, 1}},
+                                                 {{0, 0, 3}, {0, 0, -1}, 0, 1.9},
+                                                 {{0, 0, 3}, {0, 0, -1}, 0, 2.1}});
   EXPECT_EQ(light[0].r, 1);
   EXPECT_EQ(light[1].r, 0);
   EXPECT_EQ(light[2].r, 0);
@@ -585,9 +583,11 @@ TYPED_TEST(EveryWay, gives_nothing_to_lanes_that_are_not_active) {
       active &= (1u << lanes<F>)-1u;
       const Mask<F> mask = mask_from_bits<F>(active);
       const Vec3<F> away(F(0.f), F(0.f), F(1.f)), towards(F(0.f), F(0.f), F(-1.f));
-      const Rgb<F> free = world.transmit(Vec3<F>(x, x, z), away, F(9.f), 0, mask);
-      const Rgb<F> dim = world.transmit(Vec3<F>(x, x, z), towards, F(9.f), 0, mask);
-      const Hit<F> hit = world.closest(Vec3<F>(x, x, z), towards, F(0.f), mask);
+      const Rgb<F> free =
+          world.transmit(Vec3<F>(x, x, z), away, F(9.f), 0, mask, TypeParam::bundle);
+      const Rgb<F> dim =
+          world.transmit(Vec3<F>(x, x, z), towards, F(9.f), 0, mask, TypeParam::bundle);
+      const Hit<F> hit = world.closest(Vec3<F>(x, x, z), towards, F(0.f), mask, TypeParam::bundle);
       EXPECT_EQ(bits<F>(hit.found), active);
       for (int i = 0; i < lanes<F>; ++i) {
         const bool on = active >> i & 1;
@@ -601,25 +601,23 @@ TYPED_TEST(EveryWay, gives_nothing_to_lanes_that_are_not_active) {
 }
 
 TYPED_TEST(EveryWay, survives_a_move_and_arrays_without_room_behind_them) {
-  using F = typename TypeParam::Arithmetic;
   Scene scene = any_scene(9);
   Random random(9);
   const auto rays = any_rays(random, 500);
-  const auto before = transmit<F>(World(scene, TypeParam::visibility), rays);
+  const auto before = transmit<TypeParam>(World(scene, TypeParam::visibility), rays);
   for (Object& object : scene.objects)
     if (auto* mesh = std::get_if<Mesh>(&object.geometry)) mesh->positions.shrink_to_fit();
   World first(scene, TypeParam::visibility);
   const World second = std::move(first);
-  EXPECT_EQ(transmit<F>(second, rays), before);
+  EXPECT_EQ(transmit<TypeParam>(second, rays), before);
 }
 
 TYPED_TEST(EveryWay, does_not_see_what_does_nothing) {
-  using F = typename TypeParam::Arithmetic;
   Scene scene;
   scene.objects = {pane({0, 0, 1}, glass(0, Rgb<double>(1.))), pane({0, 0, 0})};
   const World world(scene, TypeParam::visibility);
   EXPECT_FALSE(world.filters());
-  const Found hit = closest<F>(world, {{{0.3, 0.1, 2}, {0, 0, -1}}})[0];
+  const Found hit = closest<TypeParam>(world, {{{0.3, 0.1, 2}, {0, 0, -1}}})[0];
   EXPECT_TRUE(hit.found);
   EXPECT_EQ(hit.object, 1);
 }

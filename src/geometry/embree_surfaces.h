@@ -23,11 +23,12 @@ class EmbreeSurfaces {
 
   /// As World::transmit.
   template <Real F>
-  Rgb<F> transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> active) const noexcept;
+  Rgb<F> transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> active, Bundle bundle) const noexcept;
 
   /// As World::closest.
   template <Real F>
-  Hit<F> closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active) const noexcept;
+  Hit<F> closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active,
+                 Bundle bundle) const noexcept;
 
   /// What Embree's own functions take.
   RTCScene handle() const noexcept { return embree_.get(); }
@@ -52,9 +53,10 @@ class EmbreeSurfaces {
 };
 
 template <Real F>
-Rgb<F> EmbreeSurfaces::transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> active) const noexcept {
+Rgb<F> EmbreeSurfaces::transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> active,
+                                Bundle bundle) const noexcept {
   using Calls = PacketCalls<lanes<F>>;
-  PacketContext context;
+  PacketContext context(bundle);
   if (has_filters_)
     for (int i = 0; i < lanes<F>; ++i) context.passages[std::size_t(i)].start();
   alignas(64) std::int32_t valid[lanes<F>];
@@ -78,10 +80,10 @@ Rgb<F> EmbreeSurfaces::transmit(Vec3<F> from, Vec3<F> dir, F t_max, Mask<F> acti
 }
 
 template <Real F>
-Hit<F> EmbreeSurfaces::closest(Vec3<F> origin, Vec3<F> dir, F t_min,
-                               Mask<F> active) const noexcept {
+Hit<F> EmbreeSurfaces::closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active,
+                               Bundle bundle) const noexcept {
   using Calls = PacketCalls<lanes<F>>;
-  PacketContext context;
+  PacketContext context(bundle);
   alignas(64) std::int32_t valid[lanes<F>];
   store_mask<F>(active, valid);
   typename Calls::RayHit packet;

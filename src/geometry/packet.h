@@ -80,13 +80,23 @@ struct Passage {
   }
 };
 
+/// How the rays of a packet lie to one another.
+enum class Bundle {
+  loose,  ///< anyhow
+  tight,  ///< side by side, as those of neighbouring pixels: Embree follows them as one frustum
+};
+
 /// What goes with a packet through Embree to the filters of surfaces that are not opaque. Embree's
 /// part comes first: filters are handed a pointer to it.
 struct PacketContext {
   RTCIntersectContext embree;
   std::array<Passage, 16> passages;  ///< by ray id
 
-  PacketContext() noexcept { rtcInitIntersectContext(&embree); }
+  explicit PacketContext(Bundle bundle) noexcept {
+    rtcInitIntersectContext(&embree);
+    embree.flags = bundle == Bundle::tight ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
 };
 
 /// Fills in a packet but for the hits.

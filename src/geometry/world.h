@@ -36,20 +36,22 @@ class World {
   /// What light is multiplied by on the way from `from` to `from + t_max dir`: the product of (1 −
   /// opacity) · tint over the surfaces it crosses; 1 is free, 0 blocked. 0 in lanes that are not
   /// active. `light` is an index into Scene::lights, whose image, if it has one, counts too, or
-  /// `no_light`.
+  /// `no_light`. How the rays lie is a matter of speed alone, here and below.
   template <Real F>
-  Rgb<F> transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active) const noexcept;
+  Rgb<F> transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active,
+                  Bundle bundle = Bundle::loose) const noexcept;
 
   /// The same if there were no objects but holdouts; `passed` is what `transmit` says of these
   /// segments.
   template <Real F>
   Rgb<F> transmit_by_holdouts(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active,
-                              const Rgb<F>& passed) const noexcept;
+                              const Rgb<F>& passed, Bundle bundle = Bundle::loose) const noexcept;
 
   /// The nearest surface beyond t_min that does something to light. Not found in lanes that are not
   /// active.
   template <Real F>
-  Hit<F> closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active) const noexcept;
+  Hit<F> closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active,
+                 Bundle bundle = Bundle::loose) const noexcept;
 
   /// The surface at a hit's point.
   SurfacePoint surface(std::uint32_t object, std::uint32_t primitive, float u,
@@ -76,7 +78,7 @@ class World {
 
   template <Real F>
   Rgb<F> transmit(const Surfaces& some, Vec3<F> from, Vec3<F> dir, F t_max, int light,
-                  Mask<F> active) const noexcept;
+                  Mask<F> active, Bundle bundle) const noexcept;
 
   const Scene* scene_;
   Bounds bounds_;
@@ -87,24 +89,25 @@ class World {
 };
 
 template <Real F>
-Rgb<F> World::transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light,
-                       Mask<F> active) const noexcept {
-  return transmit(all_, from, dir, t_max, light, active);
+Rgb<F> World::transmit(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active,
+                       Bundle bundle) const noexcept {
+  return transmit(all_, from, dir, t_max, light, active, bundle);
 }
 
 template <Real F>
 Rgb<F> World::transmit_by_holdouts(Vec3<F> from, Vec3<F> dir, F t_max, int light, Mask<F> active,
-                                   const Rgb<F>& passed) const noexcept {
+                                   const Rgb<F>& passed, Bundle bundle) const noexcept {
   if (!holdouts_) return passed;
   const Mask<F> held_back = active & (passed.r + passed.g + passed.b < F(3));
-  return select(held_back, transmit(*holdouts_, from, dir, t_max, light, held_back), passed);
+  return select(held_back, transmit(*holdouts_, from, dir, t_max, light, held_back, bundle),
+                passed);
 }
 
 template <Real F>
 Rgb<F> World::transmit(const Surfaces& some, Vec3<F> from, Vec3<F> dir, F t_max, int light,
-                       Mask<F> active) const noexcept {
+                       Mask<F> active, Bundle bundle) const noexcept {
   if (!any(active)) return {};
-  Rgb<F> passed = some.embree ? some.embree->transmit(from, dir, t_max, active)
+  Rgb<F> passed = some.embree ? some.embree->transmit(from, dir, t_max, active, bundle)
                               : some.exact->transmit(from, dir, t_max, active, surfaces_);
   if (std::size_t(light) >= scene_->lights.size()) return passed;
   if (const auto* beam = std::get_if<Collimated>(&scene_->lights[std::size_t(light)]))
@@ -114,9 +117,10 @@ Rgb<F> World::transmit(const Surfaces& some, Vec3<F> from, Vec3<F> dir, F t_max,
 }
 
 template <Real F>
-Hit<F> World::closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active) const noexcept {
+Hit<F> World::closest(Vec3<F> origin, Vec3<F> dir, F t_min, Mask<F> active,
+                      Bundle bundle) const noexcept {
   const auto& [embree, exact] = all_;
-  if (embree && any(active)) return embree->closest(origin, dir, t_min, active);
+  if (embree && any(active)) return embree->closest(origin, dir, t_min, active, bundle);
   if (exact && any(active)) return exact->closest(origin, dir, t_min, active, surfaces_);
   return Hit<F>::none();
 }

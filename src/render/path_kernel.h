@@ -179,7 +179,8 @@ class PathKernel {
       ray = medium_ray(CameraRay<F>{paths_.origin, paths_.direction, t_end}, local, inside.hull());
       ray.dimmed = paths_.throughput;
     }
-    const SurfaceLight<F, Space, PathSampler<F>> surfaces(frame_, medium_, space_, paths_.points);
+    const SurfaceLight<F, Space, PathSampler<F>> surfaces(frame_, medium_, space_, paths_.points,
+                                                          Bundle::loose);
     if (glows_)
       add(Frame::ungrouped,
           paths_.throughput * inside.emitted(ray.t_enter, ray.t_enter + ray.t_max),

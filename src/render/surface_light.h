@@ -36,9 +36,10 @@ struct Shadowed {
 template <Real F, class Space, DrawsPoints<F> Points>
 class SurfaceLight {
  public:
-  SurfaceLight(const Frame& frame, const Medium* medium, const Space& space,
-               const Points& sampler) noexcept
-      : frame_(frame), medium_(medium), space_(space), sampler_(sampler) {}
+  /// `bundle`: how the points that a packet asks about lie.
+  SurfaceLight(const Frame& frame, const Medium* medium, const Space& space, const Points& sampler,
+               Bundle bundle) noexcept
+      : frame_(frame), medium_(medium), space_(space), sampler_(sampler), bundle_(bundle) {}
 
   Crossing<F> crossing(const Hit<F>& hit, Mask<F> where, Vec3<F> origin,
                        Vec3<F> direction) const noexcept {
@@ -153,7 +154,7 @@ class SurfaceLight {
     const F cosine = cosine_of(w, at);
     const Mask<F> faces = found & (cosine > F(0));
     if (!any(faces)) return {};
-    const Rgb<F> visible = frame_.world.transmit(at.above, w, reach, light_index, faces);
+    const Rgb<F> visible = frame_.world.transmit(at.above, w, reach, light_index, faces, bundle_);
     const Rgb<F> part = through_medium(w, reach, at) * cosine;
     return {select(faces, part * visible, Rgb<F>()), select(faces, part, Rgb<F>())};
   }
@@ -165,9 +166,10 @@ class SurfaceLight {
     const Mask<F> faces = found & (cosine > F(0));
     if (!any(faces)) return {};
     const World& world = frame_.world;
-    const Rgb<F> visible = world.transmit(at.above, w, reach, light_index, faces);
+    const Rgb<F> visible = world.transmit(at.above, w, reach, light_index, faces, bundle_);
     const Rgb<F> was =
-        world.transmit_by_holdouts(at.above, w, reach, light_index, faces, visible) * cosine;
+        world.transmit_by_holdouts(at.above, w, reach, light_index, faces, visible, bundle_) *
+        cosine;
     const Rgb<F> is = visible * cosine * through_medium(w, reach, at);
     return {select(faces, is, Rgb<F>()), select(faces, was, Rgb<F>())};
   }
@@ -188,6 +190,7 @@ class SurfaceLight {
   const Medium* medium_;
   const Space& space_;
   const Points& sampler_;
+  Bundle bundle_;
 };
 
 }  // namespace airlight

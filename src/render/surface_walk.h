@@ -13,7 +13,7 @@ class SurfaceWalk {
   /// `radiance`: room for one colour a light group.
   SurfaceWalk(const Frame& frame, const Medium* medium, const Space& space,
               const Sampler<F>& sampler, std::span<Rgb<F>> radiance) noexcept
-      : radiance(radiance), frame_(frame), surfaces_(frame, medium, space, sampler) {
+      : radiance(radiance), frame_(frame), surfaces_(frame, medium, space, sampler, Bundle::tight) {
     for (Rgb<F>& group : radiance) group = {};
   }
 
@@ -38,7 +38,8 @@ class SurfaceWalk {
     bool first = true;
     Rgb<F> filter(F(1));  // of all crossed so far
     for (int crossed = 0; crossed < most_crossings && any(active); ++crossed) {
-      const Hit<F> hit = frame_.world.template closest<F>(origin, direction, t, active);
+      const Hit<F> hit =
+          frame_.world.template closest<F>(origin, direction, t, active, Bundle::tight);
       const Mask<F> found = hit.found & active;
       const F t_next = select(found, hit.t, F(far_away));
       const Rgb<F> glow = filter * inside.emitted(t, t_next);

@@ -28,11 +28,12 @@ struct ZeroedMemory {
   friend bool operator==(const ZeroedMemory&, const ZeroedMemory&) noexcept { return true; }
 
  private:
-  /// Bytes of so many T: whole large pages, for only such a request begins at one.
+  /// Bytes of so many T: whole large pages, for only such a request begins at one, unless most of a
+  /// page would be left over.
   static constexpr std::size_t mapped(std::size_t count) noexcept {
     constexpr std::size_t large = std::size_t(2) << 20;
     const std::size_t size = count * sizeof(T);
-    return size < large ? size : (size + large - 1) / large * large;
+    return size < large / 4 ? size : (size + large - 1) / large * large;
   }
 };
 
