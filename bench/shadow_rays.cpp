@@ -81,8 +81,9 @@ struct PictureOfRays {
       bool faces = false;
       Vec3<float> from = origin + direction * hit.t;
       if (hit.found) {
-        Vec3<float> n = frame.world.surface(hit.object[0], hit.primitive[0], hit.u[0], hit.v[0])
-                            .geometric_normal;
+        Vec3<float> n =
+            normalize(frame.world.surface(hit.object[0], hit.primitive[0], hit.u[0], hit.v[0])
+                          .geometric_normal);
         if (dot(n, direction) > 0) n = -n;
         faces = dot(n, w) > 0;
         from = from + n * 1e-4f;

@@ -385,8 +385,8 @@ TYPED_TEST(EveryWay, sees_what_brute_force_sees) {
         const SurfacePoint point =
             world.surface(hits[i].object, hits[i].primitive, hits[i].u, hits[i].v);
         ASSERT_EQ(point.object, hits[i].object);
-        ASSERT_NEAR(std::abs(dot(Vec3<double>(point.geometric_normal), expected.closest->normal)),
-                    1, 1e-4);
+        const auto normal = normalize(Vec3<double>(point.geometric_normal));
+        ASSERT_NEAR(std::abs(dot(normal, expected.closest->normal)), 1, 1e-4);
         ASSERT_NEAR(point.opacity, expected.closest->opacity, 1e-4);
       }
     }
@@ -550,7 +550,7 @@ TYPED_TEST(EveryWay, knows_where_on_a_sphere_it_is) {
     const SurfacePoint point = world.surface(0, 0, hits[i].u, hits[i].v);
     const Vec3<double> normal = (rays[i](hits[i].t) - centre) * (1 / 0.75);
     // Longitude and latitude are known to float's 6e-8 of a turn; grazing rays to a few times 1e-6.
-    ASSERT_LT(length(Vec3<double>(point.normal) - normal), 2e-5) << i;
+    ASSERT_LT(length(normalize(Vec3<double>(point.normal)) - normal), 2e-5) << i;
   }
 }
 
@@ -647,8 +647,9 @@ TEST(World, reads_a_surface_as_the_mesh_says) {
   EXPECT_EQ(corner.opacity, 0.5f);
   EXPECT_EQ(corner.transmittance, Rgb<float>(0.5f, 0.25f, 0));
   const SurfacePoint middle = world.surface(0, 0, 0.5f, 0);
-  EXPECT_NEAR(middle.normal.x, std::sqrt(0.5), 1e-6);
-  EXPECT_NEAR(middle.normal.z, std::sqrt(0.5), 1e-6);
+  const Vec3<float> between = normalize(middle.normal);
+  EXPECT_NEAR(between.x, std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(between.z, std::sqrt(0.5), 1e-6);
   EXPECT_EQ(middle.geometric_normal, Vec3<float>(0, 0, 1));
   EXPECT_NEAR(middle.albedo.r, 0.25, 1e-6);
   EXPECT_NEAR(middle.albedo.g, 0.125, 1e-6);

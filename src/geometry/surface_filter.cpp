@@ -37,7 +37,7 @@ float SurfaceFilter::opacity(std::uint32_t primitive, float u, float v) const no
 
 namespace {
 
-/// Of a unit normal, both in [0, 1]: u = 0 faces +x, u = 1/4 faces −z, v = 1 is the pole +y.
+/// Of a normal, both in [0, 1]: u = 0 faces +x, u = 1/4 faces −z, v = 1 is the pole +y.
 std::array<float, 2> longitude_and_latitude(Vec3<float> n) noexcept {
   const float turn = std::atan2(-n.z, n.x) * float(0.5 / pi);
   return {turn < 0 ? turn + 1 : turn,
@@ -49,7 +49,7 @@ std::array<float, 2> longitude_and_latitude(Vec3<float> n) noexcept {
 std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t primitive, float u,
                                          float v) noexcept {
   const auto* mesh = std::get_if<Mesh>(&object.geometry);
-  if (mesh == nullptr) return longitude_and_latitude(sphere_normal(u, v));
+  if (mesh == nullptr) return longitude_and_latitude(sphere_direction(u, v));
   if (mesh->uvs.empty()) return {0, 0};
   const auto& triangle = mesh->triangles[primitive];
   const auto &a = mesh->uvs[triangle[0]], &b = mesh->uvs[triangle[1]], &c = mesh->uvs[triangle[2]];
@@ -64,11 +64,10 @@ std::array<float, 2> sphere_point(float x, float y, float z) noexcept {
   return {std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v)};
 }
 
-Vec3<float> sphere_normal(float u, float v) noexcept {
+Vec3<float> sphere_direction(float u, float v) noexcept {
   const float z = 1 - std::abs(u) - std::abs(v);
-  if (z >= 0) return normalize(Vec3<float>(u, v, z));
-  return normalize(
-      Vec3<float>(std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z));
+  if (z >= 0) return {u, v, z};
+  return {std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z};
 }
 
 }  // namespace airlight

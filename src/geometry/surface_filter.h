@@ -64,7 +64,7 @@ std::array<float, 2> texture_coordinates(const Object& object, std::uint32_t pri
 /// it, in which the core's types have different names.
 std::array<float, 2> sphere_point(float x, float y, float z) noexcept;
 
-/// The unit normal that `sphere_point` came from.
-Vec3<float> sphere_normal(float u, float v) noexcept;
+/// The normal that `sphere_point` came from, of any length.
+Vec3<float> sphere_direction(float u, float v) noexcept;
 
 }  // namespace airlight

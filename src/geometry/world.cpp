@@ -1,6 +1,7 @@
 #include "world.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace airlight {
 
@@ -47,16 +48,17 @@ SurfacePoint World::surface(std::uint32_t object, std::uint32_t primitive, float
     // In double: the sides of a small triangle far from the origin lose their digits in float.
     const Vec3<double> origin(p[a]);
     const Vec3<double> n = cross(Vec3<double>(p[b]) - origin, Vec3<double>(p[c]) - origin);
-    point.geometric_normal = Vec3<float>(normalize(n));
+    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    point.geometric_normal = Vec3<float>(n * (1 / largest));
     point.normal = point.geometric_normal;
     if (!mesh->normals.empty()) {
       const auto& normals = mesh->normals;
       const Vec3<float> s = (1 - u - v) * normals[a] + u * normals[b] + v * normals[c];
       // Normals that cancel say nothing.
-      if (dot(s, s) > 1e-12f) point.normal = normalize(s);
+      if (dot(s, s) > 1e-12f) point.normal = s;
     }
   } else {
-    point.geometric_normal = point.normal = sphere_normal(u, v);
+    point.geometric_normal = point.normal = sphere_direction(u, v);
   }
   point.albedo = Rgb<float>(material.albedo);
   if (material.albedo_texture >= 0) {

@@ -15,8 +15,9 @@ namespace airlight {
 
 /// What a surface is like at a point.
 struct SurfacePoint {
-  Vec3<float> normal;            ///< unit, interpolated as the mesh says, on an arbitrary side
-  Vec3<float> geometric_normal;  ///< unit, of the triangle itself, on an arbitrary side
+  // On an arbitrary side, and of any length: kernels bring whole packets of them to unit length.
+  Vec3<float> normal;            ///< interpolated as the mesh says
+  Vec3<float> geometric_normal;  ///< of the triangle itself
   Rgb<float> albedo;             ///< diffuse
   float opacity;                 ///< in [0, 1]
   Rgb<float> transmittance;      ///< (1 − opacity) · tint

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,6 +15,19 @@ inline constexpr int pixels = side * side;
 /// Where a pixel of a block, or a lane of a packet, lies.
 constexpr int x(int index) noexcept { return (index & 1) | ((index >> 1) & 2); }
 constexpr int y(int index) noexcept { return ((index >> 1) & 1) | ((index >> 2) & 2); }
+
+/// The same of all, in order.
+template <class T>
+struct Places {
+  alignas(64) std::array<T, pixels> x, y;
+};
+template <class T>
+inline constexpr Places<T> places = [] {
+  Places<T> result{};
+  for (int i = 0; i < pixels; ++i)
+    result.x[std::size_t(i)] = T(x(i)), result.y[std::size_t(i)] = T(y(i));
+  return result;
+}();
 
 /// The inverse: the index of a pixel in its block.
 constexpr int index(int x, int y) noexcept {

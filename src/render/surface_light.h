@@ -64,9 +64,10 @@ class SurfaceLight {
     const auto at = [&](int j) { return load<F>(values[j]); };
     Crossing<F> c;
     c.point = origin + direction * hit.t;
-    c.geometric = Vec3<F>(at(3), at(4), at(5));
+    const Vec3<F> none(F(0), F(0), F(1));
+    c.geometric = normalize(select(where, Vec3<F>(at(3), at(4), at(5)), none));
     c.geometric = select(dot(c.geometric, direction) > F(0), -c.geometric, c.geometric);
-    c.normal = Vec3<F>(at(0), at(1), at(2));
+    c.normal = normalize(select(where, Vec3<F>(at(0), at(1), at(2)), none));
     c.normal = select(dot(c.normal, c.geometric) < F(0), -c.normal, c.normal);
     c.albedo = Rgb<F>(at(6), at(7), at(8));
     c.filter = Rgb<F>(at(9), at(10), at(11));

@@ -68,14 +68,15 @@ struct PacketSums {
     const std::uint32_t kept = bits<F>(good);
     alignas(64) Scalar<F> depths[lanes<F>], objects[lanes<F>];
     store(depth, depths), store(object, objects);
+    float* const to_depths = to.features + FilmLayout::depth * film_block::pixels;
+    float* const to_objects = to.features + FilmLayout::object * film_block::pixels;
     for (int i = 0; i < lanes<F>; ++i) {
-      if (!((kept >> i) & 1u)) continue;
+      const std::uint32_t keeps = (kept >> i) & 1u;
       std::uint32_t &first = to.samples[i], &second = to.samples[i + film_block::pixels];
-      if (first + second == 0) {
-        to.features[FilmLayout::depth * film_block::pixels + i] = float(depths[i]);
-        to.features[FilmLayout::object * film_block::pixels + i] = float(objects[i]);
-      }
-      first += samples[0], second += samples[1];
+      const bool is_first = keeps && first + second == 0;
+      to_depths[i] = is_first ? float(depths[i]) : to_depths[i];
+      to_objects[i] = is_first ? float(objects[i]) : to_objects[i];
+      first += keeps * samples[0], second += keeps * samples[1];
     }
     for (Group& group : groups) group = {};
     transmittance = albedo = {}, normal = {}, holdouts = {}, samples = {};
@@ -193,20 +194,21 @@ class TileKernel {
   void packet(int x0, int y0) noexcept {
     const PixelRect& rect = tile_.rect;
     const PixelRect& crop = tile_.film.crop;
-    alignas(64) Scalar<F> px[lanes<F>], py[lanes<F>];
-    std::array<std::uint32_t, std::size_t(lanes<F>)> hash;
-    std::uint32_t inside = 0;
-    for (int i = 0; i < lanes<F>; ++i) {
-      const int x = x0 + film_block::x(i), y = y0 + film_block::y(i);
-      const bool in = x < rect.x0 + rect.width && y < rect.y0 + rect.height;
-      const int X = crop.x0 + (in ? x : x0), Y = crop.y0 + (in ? y : y0);
-      px[i] = Scalar<F>(X) + Scalar<F>(0.5), py[i] = Scalar<F>(Y) + Scalar<F>(0.5);
-      hash[std::size_t(i)] = pixel_hash(frame_.seed, std::uint32_t(X), std::uint32_t(Y));
-      inside |= std::uint32_t(in) << i;
-    }
-    const Sampler<F> sampler{load_bits<F>(hash.data())};
-    const Mask<F> active = mask_from_bits<F>(inside);
-    const F x = load<F>(px), y = load<F>(py);
+    const auto& lane = film_block::places<float>;
+    const auto& lane_bits = film_block::places<std::uint32_t>;
+    const F right = load<F>(lane.x.data()), down = load<F>(lane.y.data());
+    const Mask<F> active = (right < F(Scalar<F>(rect.x0 + rect.width - x0))) &
+                           (down < F(Scalar<F>(rect.y0 + rect.height - y0)));
+    // Lanes beyond the edge follow the first one's ray.
+    const auto beside = [&](int first, F offset) {
+      return F(Scalar<F>(first) + Scalar<F>(0.5)) + select(active, offset, F(0));
+    };
+    const F x = beside(crop.x0 + x0, right), y = beside(crop.y0 + y0, down);
+    const auto number = [](int first, const auto& offsets) {
+      return UInt<F>(std::uint32_t(first)) + load_bits<F>(offsets.data());
+    };
+    const Sampler<F> sampler{pixel_hash<UInt<F>>(frame_.seed, number(crop.x0 + x0, lane_bits.x),
+                                                 number(crop.y0 + y0, lane_bits.y))};
     const Rgb<F> background = background_at(frame_.scene, x, y);
 
     const FilmPixels to = tile_.film.at(x0, y0);
@@ -246,10 +248,12 @@ class TileKernel {
     const F n(Scalar<F>(samples.count));
     Halves<F>& ungrouped = sums_.groups[Frame::ungrouped].in_scatter;
     const std::uint32_t end = samples.first + samples.count;
-    for (std::uint32_t i = samples.first; i < end; ++i) {
-      const auto half = std::size_t(half_of(frame_.halve_by_ray ? i / frame_.samples_per_ray : i));
-      ++sums_.samples[half];
-      ungrouped[half].plain += walk.emission;
+    std::array<std::uint32_t, 2> counts{};
+    for (std::uint32_t i = samples.first; i < end; ++i)
+      ++counts[std::size_t(half_of(frame_.halve_by_ray ? i / frame_.samples_per_ray : i))];
+    for (std::size_t half = 0; half < counts.size(); ++half) {
+      sums_.samples[half] += counts[half];
+      ungrouped[half].plain += walk.emission * Rgb<F>(F(Scalar<F>(counts[half])));
     }
     for (std::size_t g = 0; g < sums_.groups.size(); ++g)
       sums_.groups[g].surface += walk.radiance[g] * n;
@@ -259,14 +263,10 @@ class TileKernel {
     sums_.normal = sums_.normal + walk.normal * n;
     if (is_first) sums_.depth = walk.depth, sums_.object = walk.object;
 
-    MediumRay<F> ray;
-    ray.direction = direction;
-    ray.active = F(0) > F(0);
-    if (medium_) {
-      ray = medium_ray({origin, direction, walk.t_end}, local, inside.hull());
-      ray.active = active & ray.active;
-      ray.filtered = walk.filtered;
-    }
+    MediumRay<F> ray =
+        medium_ray({origin, direction, medium_ ? walk.t_end : F(0)}, local, inside.hull());
+    ray.active = active & ray.active;
+    ray.filtered = walk.filtered;
     for (std::uint32_t i = samples.first; i < end;) {
       ray.index = i / frame_.samples_per_ray;
       const std::uint32_t stop = std::min(end, (ray.index + 1) * frame_.samples_per_ray);

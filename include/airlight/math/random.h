@@ -179,9 +179,11 @@ concept DrawsPoints = requires(const S sampler) {
   { sampler.two(0u, 0u) } -> std::same_as<Vec2<F>>;
 };
 
-/// The hash from which a pixel's samples follow.
-constexpr std::uint32_t pixel_hash(std::uint32_t seed, std::uint32_t x, std::uint32_t y) noexcept {
-  return mix_bits(mix_bits(mix_bits(seed ^ 0xa511e9b3u) + x) + (y ^ 0x63d83595u));
+/// The hash from which a pixel's samples follow, or those of a packet of pixels.
+template <class U = std::uint32_t>
+constexpr U pixel_hash(std::uint32_t seed, std::type_identity_t<U> x,
+                       std::type_identity_t<U> y) noexcept {
+  return mix_bits(mix_bits(U(mix_bits(seed ^ 0xa511e9b3u)) + x) + (y ^ U(0x63d83595u)));
 }
 
 }  // namespace airlight::inline AIRLIGHT_ISA

@@ -171,11 +171,16 @@ void store(F x, T* values) noexcept {
     x.store_unaligned(values);
 }
 
+/// Whether the instruction set keeps a mask of many lanes as a number.
+inline constexpr bool masks_are_bits = sizeof(Mask<FloatBatch>) < sizeof(FloatBatch);
+
 /// The bits of a mask, lane 0 lowest.
 template <Real F>
 std::uint32_t bits(Mask<F> mask) noexcept {
   if constexpr (lanes<F> == 1)
     return mask ? 1u : 0u;
+  else if constexpr (masks_are_bits)
+    return mask.data;
   else {
     alignas(64) float flags[lanes<F>];
     xsimd::select(mask, F(1.f), F(0.f)).store_aligned(flags);
@@ -190,6 +195,8 @@ template <Real F>
 Mask<F> mask_from_bits(std::uint32_t mask) noexcept {
   if constexpr (lanes<F> == 1)
     return (mask & 1u) != 0;
+  else if constexpr (masks_are_bits)
+    return Mask<F>(static_cast<typename Mask<F>::register_type>(mask));
   else {
     alignas(64) float flags[lanes<F>];
     for (int i = 0; i < lanes<F>; ++i) flags[i] = float((mask >> i) & 1u);
