@@ -39,14 +39,17 @@ struct Frame {
   bool through_centre = false;  ///< every sample of a pixel shares the ray through its centre
   /// Samples that a camera ray is traced for; where all share one, what is taken of it at a time.
   std::uint32_t samples_per_ray = 1;
-  /// Which half of the samples one belongs to goes by its ray; else by the sample, as all share one.
-  bool halve_by_ray = false;
   std::uint32_t samples_per_surface_ray =
       1;  ///< samples of a camera ray that share a surface's shadow ray to a light with a disc
   std::uint32_t seed = 0;
   std::vector<ParallelShadows> shadows = {};  ///< one a light, for the exact estimator only
   FilmLayout layout = {};                     ///< of the films that are rendered into
   std::vector<int> light_group = {};          ///< of each light
+
+  /// Whether a sample is in the half of the samples that its ray is in. Through the centre the
+  /// sample itself decides: its first ray may be the only one. How many samples there will be does
+  /// not count, so that a film has one kind of halves, whatever is added to it.
+  bool halves_by_ray() const noexcept { return !through_centre; }
 
   /// The group of what belongs to no light's group: background, ambient light, emission.
   static constexpr int ungrouped = 0;

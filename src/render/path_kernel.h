@@ -133,7 +133,7 @@ class PathKernel {
       job.x = pixel % tile_.rect.width, job.y = pixel / tile_.rect.width;
       job.sample = tile_.samples.first + std::uint32_t(next_ / pixels);
       ray[i] = job.sample / frame_.samples_per_ray;
-      job.half = half_of(frame_.through_centre ? job.sample : ray[i]);
+      job.half = half_of(frame_.halves_by_ray() ? ray[i] : job.sample);
       const int X = tile_.film.crop.x0 + tile_.rect.x0 + job.x;
       const int Y = tile_.film.crop.y0 + tile_.rect.y0 + job.y;
       px[i] = Scalar<F>(X) + Scalar<F>(0.5), py[i] = Scalar<F>(Y) + Scalar<F>(0.5);

@@ -224,8 +224,6 @@ Prepared prepare(const Scene& scene, const World& world, const RenderSettings& s
   // Through the centre, samples that share a direction of a disc are few, so that a picture sees
   // many directions.
   constexpr std::uint32_t sharing = 4;
-  const std::int64_t end = settings.first_sample.value_or(0) + settings.spp;
-  frame.halve_by_ray = !frame.through_centre || (has_disc(scene) && end > sharing);
   frame.samples_per_ray = !frame.through_centre ? std::uint32_t(settings.samples_per_ray)
                           : has_disc(scene)     ? sharing
                                                 : 1024;

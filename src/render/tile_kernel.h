@@ -138,11 +138,11 @@ void add_in_scatter(const Frame& frame, const Space& space, const L& light, int 
                     const Sampler<F>& sampler, Halves<F>& sums, Watch&& watch) noexcept {
   if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
     sampled->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    frame.halve_by_ray, sampler, frame.world, sums, watch, share);
+                                    frame.halves_by_ray(), sampler, frame.world, sums, watch, share);
   if constexpr (std::same_as<F, double>)
     if (const auto* exact = std::get_if<ClosedForm>(&frame.estimator); exact && ray.active)
       exact->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    frame.halve_by_ray, ExactVisibility{frame.shadows}, sums);
+                                    frame.halves_by_ray(), ExactVisibility{frame.shadows}, sums);
 }
 
 template <int channels, Real F, class Space, class L>
@@ -250,7 +250,7 @@ class TileKernel {
     const std::uint32_t end = samples.first + samples.count;
     std::array<std::uint32_t, 2> counts{};
     for (std::uint32_t i = samples.first; i < end; ++i)
-      ++counts[std::size_t(half_of(frame_.halve_by_ray ? i / frame_.samples_per_ray : i))];
+      ++counts[std::size_t(half_of(frame_.halves_by_ray() ? index : i))];
     for (std::size_t half = 0; half < counts.size(); ++half) {
       sums_.samples[half] += counts[half];
       ungrouped[half].plain += walk.emission * Rgb<F>(F(Scalar<F>(counts[half])));
