@@ -177,6 +177,48 @@ TEST(Resume, changes_no_bit_where_passes_end_where_they_would_have) {
   }
 }
 
+/// The square of the standard error, over all pixels.
+double square_error(const Film& film) {
+  const Image error = film.layer("standard_error");
+  double sum = 0;
+  for (int y = 0; y < error.height; ++y)
+    for (const float e : error.row(y)) sum += double(e) * e;
+  return sum;
+}
+
+TEST(Resume, of_few_samples_through_the_centre_goes_on_there_or_says_how_to) {
+  for (const char* sun : {"lights.0.angular_diameter=0", "lights.0.angular_diameter=2"}) {
+    const Folder folder;
+    const std::string file = folder / "a.ckpt";
+    EXPECT_GT(square_error(render(scene_with({sun, "render.spp=4"}), file).film), 0) << sun;
+    EXPECT_EQ(error_of([&] {
+                render(scene_with({sun, "render.spp=64"}), file);
+              }),
+              file +
+                  ": holds samples through the centres of pixels, as --spp up to 4 takes them; "
+                  "accepted: --samples-per-ray all, to go on there, or a new file, with "
+                  "--first-sample 0 from the start");
+    EXPECT_THAT(error_of([&] {
+                  render(scene_with({sun, "render.spp=64", "media.0.albedo=0.8"}), file);
+                }),
+                EndsWith("is of another render: not the same media"));
+    // The halves, too, are those of a longer render.
+    const Scene centred = scene_with({sun, "render.spp=64", "render.samples_per_ray=0"});
+    const Film whole = Renderer(centred).render(centred.render).film;
+    const Film resumed = render(centred, file).film;
+    EXPECT_LT(largest_difference(resumed, whole), rounding) << sun;
+    EXPECT_NEAR(square_error(resumed) / square_error(whole), 1, 1e-3) << sun;
+
+    const std::string spread = folder / "b.ckpt";
+    render(scene_with({sun, "render.spp=4", "render.first_sample=0"}), spread);
+    const Scene longer = scene_with({sun, "render.spp=64"});
+    EXPECT_LT(largest_difference(render(longer, spread).film,
+                                 Renderer(longer).render(longer.render).film),
+              rounding)
+        << sun;
+  }
+}
+
 TEST(Resume, counts_all_time_and_starts_no_ray_when_all_is_done) {
   const Folder folder;
   const Scene scene = scene_with({"render.spp=64"});

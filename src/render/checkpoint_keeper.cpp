@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "image/atomic_file.h"
 
 namespace airlight {
@@ -41,14 +43,33 @@ void check_place(const CheckpointPlan& plan) {
                 ": is there already; accepted: a new file, or --resume to go on with it");
 }
 
+namespace {
+
+/// Throws Error if a file is of another render.
+void check_origin(const Checkpoint& found, const std::string& file, const Traits& traits,
+                  const RenderSettings& settings) {
+  const std::string differs = difference(found.origin.traits, traits);
+  if (differs.empty()) return;
+  Traits through_centre = traits;
+  std::ranges::find(through_centre, "render.samples_per_ray", &Traits::value_type::first)->second =
+      "all";
+  if (!difference(found.origin.traits, through_centre).empty())
+    throw Error(fmt::format("{}: is of another render: {}", file, differs));
+  throw Error(fmt::format(
+      "{}: holds samples through the centres of pixels, as --spp up to {} takes them; accepted: "
+      "--samples-per-ray all, to go on there, or a new file, with --first-sample 0 from the start",
+      file, settings.samples_per_ray));
+}
+
+}  // namespace
+
 std::optional<Checkpoint> resumed(const CheckpointPlan& plan, const Film& film,
                                   const Traits& traits, const RenderSettings& settings) {
   check_place(plan);
   const std::string file = plan.file.string();
   if (!std::filesystem::is_regular_file(plan.file)) return std::nullopt;
   Checkpoint found = read_checkpoint(plan.file);
-  if (const std::string differs = difference(found.origin.traits, traits); !differs.empty())
-    throw Error(fmt::format("{}: is of another render: {}", file, differs));
+  check_origin(found, file, traits, settings);
   if (part_of(found.film) != part_of(film))
     throw Error(
         fmt::format("{}: holds {}; this render has {}", file, part_of(found.film), part_of(film)));
