@@ -131,25 +131,28 @@ Interval<double> ParallelShadows::shaded(const Ball& ball, Vec3<double> origin,
   return either(both(cylinder, at_least_zero(q_along, d_along)), within(q, direction, ball.radius));
 }
 
-std::vector<Interval<double>> ParallelShadows::lit(Vec3<double> origin, Vec3<double> direction,
-                                                   double t_max) const {
-  std::vector<Interval<double>> shadows;
+std::span<const Interval<double>> ParallelShadows::lit(
+    Vec3<double> origin, Vec3<double> direction, double t_max,
+    std::span<Interval<double>> room) const noexcept {
+  std::size_t count = 0;
   const auto shade = [&](Interval<double> shadow) {
     const Interval<double> part = both(shadow, {0, t_max});
-    if (!empty(part)) shadows.push_back(part);
+    if (!empty(part)) room[count++] = part;
   };
   for (const Prism& prism : prisms_) shade(shaded(prism, origin, direction));
   for (const Ball& ball : balls_) shade(shaded(ball, origin, direction));
+  const std::span<Interval<double>> shadows = room.first(count);
   std::ranges::sort(shadows, {}, &Interval<double>::t_enter);
 
-  std::vector<Interval<double>> parts;
+  // What is lit takes the place of shadows that are passed already.
+  std::size_t parts = 0;
   double reached = 0;
-  for (const auto& [enter, exit] : shadows) {
-    if (reached < enter) parts.push_back({reached, enter});
+  for (const auto [enter, exit] : shadows) {
+    if (reached < enter) room[parts++] = {reached, enter};
     reached = max(reached, exit);
   }
-  if (reached < t_max) parts.push_back({reached, t_max});
-  return parts;
+  if (reached < t_max) room[parts++] = {reached, t_max};
+  return room.first(parts);
 }
 
 }  // namespace airlight

@@ -1,6 +1,7 @@
 #pragma once
 #include <airlight/way_out.h>
 
+#include <span>
 #include <vector>
 
 namespace airlight {
@@ -18,9 +19,13 @@ class ParallelShadows {
   ParallelShadows(const Scene& scene, Vec3<double> travel, double start = -far_away);
 
   /// The parts of the ray in [0, t_max] that light reaches, in order, apart from each other; of a
-  /// light that starts at a plane, the ray must lie beyond that.
-  std::vector<Interval<double>> lit(Vec3<double> origin, Vec3<double> direction,
-                                    double t_max) const;
+  /// light that starts at a plane, the ray must lie beyond that. They are put together in `room`,
+  /// which has place for `most_parts()`.
+  std::span<const Interval<double>> lit(Vec3<double> origin, Vec3<double> direction, double t_max,
+                                        std::span<Interval<double>> room) const noexcept;
+
+  /// How many parts a ray may have: one before every shadow and one behind the last.
+  std::size_t most_parts() const noexcept { return prisms_.size() + balls_.size() + 1; }
 
  private:
   /// normal · p >= offset.

@@ -183,8 +183,9 @@ class LightProbe {
   void add_samples(ProbedLight& result, SampleRange samples,
                    const LightShare<double>* share) const {
     Halves<double> sums;
+    ShadowRoom room = shadow_room(frame_);
     add_in_scatter<channels>(
-        frame_, space_, light_, light_index_, whole_ray_, samples, share, sampler_, sums,
+        frame_, space_, light_, light_index_, whole_ray_, samples, share, sampler_, room, sums,
         [&](const WatchedSample<double>& s) {
           result.samples.push_back({s.index, s.t, s.pdf, s.weight, s.visibility});
         });

@@ -2,7 +2,9 @@
 /// How a tile is rendered, over a real type: one lane a pixel. Compiled once for each arithmetic.
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 #include "render/background.h"
 #include "render/camera_ray.h"
@@ -118,14 +120,25 @@ struct PacketSums {
   }
 };
 
+/// Where the lit parts of a ray are put together, one at a time, by the exact estimator: place for
+/// those of any ray and light.
+using ShadowRoom = std::vector<Interval<double>>;
+
+inline ShadowRoom shadow_room(const Frame& frame) {
+  std::size_t most = 0;
+  for (const ParallelShadows& shadows : frame.shadows) most = std::max(most, shadows.most_parts());
+  return ShadowRoom(most);
+}
+
 /// Where light arrives, for the estimator that asks for whole intervals.
 struct ExactVisibility {
   const std::vector<ParallelShadows>& shadows;
+  std::span<Interval<double>> room;  ///< as ShadowRoom
 
   template <class Sink>
   void lit(Vec3<double> origin, Vec3<double> direction, double t_max, int light,
            Sink&& sink) const {
-    for (const auto& part : shadows[std::size_t(light)].lit(origin, direction, t_max))
+    for (const auto& part : shadows[std::size_t(light)].lit(origin, direction, t_max, room))
       sink(part.t_enter, part.t_exit);
   }
 };
@@ -135,21 +148,24 @@ struct ExactVisibility {
 template <int channels, Real F, class Space, class L, class Watch>
 void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
                     const MediumRay<F>& ray, SampleRange samples, const LightShare<F>* share,
-                    const Sampler<F>& sampler, Halves<F>& sums, Watch&& watch) noexcept {
+                    const Sampler<F>& sampler, ShadowRoom& room, Halves<F>& sums,
+                    Watch&& watch) noexcept {
   if (const auto* sampled = std::get_if<Sampled>(&frame.estimator))
     sampled->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    frame.halves_by_ray(), sampler, frame.world, sums, watch, share);
+                                    frame.halves_by_ray(), sampler, frame.world, sums, watch,
+                                    share);
   if constexpr (std::same_as<F, double>)
     if (const auto* exact = std::get_if<ClosedForm>(&frame.estimator); exact && ray.active)
       exact->template add<channels>(frame.scene.media[0], space, light, index, ray, samples,
-                                    frame.halves_by_ray(), ExactVisibility{frame.shadows}, sums);
+                                    frame.halves_by_ray(), ExactVisibility{frame.shadows, room},
+                                    sums);
 }
 
 template <int channels, Real F, class Space, class L>
 void add_in_scatter(const Frame& frame, const Space& space, const L& light, int index,
                     const MediumRay<F>& ray, SampleRange samples, const LightShare<F>* share,
-                    const Sampler<F>& sampler, Halves<F>& sums) noexcept {
-  add_in_scatter<channels>(frame, space, light, index, ray, samples, share, sampler, sums,
+                    const Sampler<F>& sampler, ShadowRoom& room, Halves<F>& sums) noexcept {
+  add_in_scatter<channels>(frame, space, light, index, ray, samples, share, sampler, room, sums,
                            [](const WatchedSample<F>&) {});
 }
 
@@ -175,7 +191,8 @@ class TileKernel {
         watcher_(watcher),
         sums_(frame.layout),
         surface_(std::size_t(frame.layout.groups)),
-        weights_(frame.scene.lights.size(), F(0)) {
+        weights_(frame.scene.lights.size(), F(0)),
+        room_(shadow_room(frame)) {
     if (medium) camera_local_ = Vec3<F>(space.point(frame.camera.position));
   }
 
@@ -287,9 +304,11 @@ class TileKernel {
       std::visit(
           [&](const auto& light) {
             if (is_grey(*medium_, space_))
-              add_in_scatter<1>(frame_, space_, light, i, ray, samples, share, sampler, sums);
+              add_in_scatter<1>(frame_, space_, light, i, ray, samples, share, sampler, room_,
+                                sums);
             else
-              add_in_scatter<3>(frame_, space_, light, i, ray, samples, share, sampler, sums);
+              add_in_scatter<3>(frame_, space_, light, i, ray, samples, share, sampler, room_,
+                                sums);
           },
           frame_.scene.lights[std::size_t(i)]);
     };
@@ -305,6 +324,7 @@ class TileKernel {
   PacketSums<F> sums_;
   std::vector<Rgb<F>> surface_;  ///< of one camera ray, by light group
   std::vector<F> weights_;       ///< of lights on one camera ray
+  ShadowRoom room_;
 };
 
 template <Real F, class Watcher>

@@ -15,6 +15,7 @@ Asymptotes asymptotes(const Configuration& configuration) {
   const Box::Space space = box.space();
   const Vec3<double> toward = normalize(configuration.toward);
   const ParallelShadows shadows(scene, -toward);
+  std::vector<Interval<double>> room(shadows.most_parts());
   const auto [width, height] = scene.resolution;
   const CameraFrame camera = camera_frame(scene.camera, scene.resolution);
 
@@ -49,7 +50,7 @@ Asymptotes asymptotes(const Configuration& configuration) {
         sum.equidistant += square(equidistant.weights(t, length)[0]);
         sum.distance += square(distance.weights(t, length)[0]);
       };
-      for (const Interval<double>& lit : shadows.lit(entry, d, t_max))
+      for (const Interval<double>& lit : shadows.lit(entry, d, t_max, room))
         add(lit.t_enter), add(lit.t_exit);
     }
   const double scale =
