@@ -258,5 +258,36 @@ TEST_P(EveryArithmetic, both_ways_to_ask_see_the_same_glass) {
 INSTANTIATE_TEST_SUITE_P(, EveryArithmetic, testing::ValuesIn(available_kernels()),
                          [](const auto& info) { return std::string(info.param->name); });
 
+TEST(Filters, are_all_looked_through_however_many_stand_behind_each_other) {
+  const Colour tint(0.995, 0.99, 0.985);
+  constexpr double opacity = 1. / 256;
+  constexpr int panes = 200;
+  Case c{"panes", {}, {}, {}};
+  const Scene open = scene_of(c);
+  for (int i = 0; i < panes; ++i) {
+    c.sheets.push_back(before(1.5 + 1.5 * i / panes, tint, opacity));
+    c.materials.push_back(of_opacity(opacity));
+    c.sheets.back().right = {6, 0, 0};
+    c.sheets.back().albedo = {};
+  }
+  const Scene glazed = scene_of(c);
+  Renderer plain(open), through_panes(glazed);
+  for (const Kernel* kernel : available_kernels())
+    for (const Visibility visibility : {Visibility::embree, Visibility::analytic}) {
+      RenderSettings settings = open.render;
+      settings.isa = kernel->isa;
+      settings.visibility = visibility;
+      const Film a = plain.render(settings).film, b = through_panes.render(settings).film;
+      for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+          for (int channel = 0; channel < 3; ++channel) {
+            const double passes = std::pow((1 - opacity) * tint[channel], panes);
+            const double want = passes * a.radiance(x, y)[channel];
+            EXPECT_NEAR(b.radiance(x, y)[channel], want, 3e-5 * want)  // 200 products in float
+                << kernel->name << " at " << x << "," << y;
+          }
+    }
+}
+
 }  // namespace
 }  // namespace airlight

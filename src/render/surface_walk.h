@@ -37,7 +37,9 @@ class SurfaceWalk {
     F t(0);
     bool first = true;
     Rgb<F> filter(F(1));  // of all crossed so far
-    for (int crossed = 0; crossed < most_crossings && any(active); ++crossed) {
+    // Every step lies beyond the one before and a surface is met once: there are no more of them
+    // than surfaces.
+    while (any(active)) {
       const Hit<F> hit =
           frame_.world.template closest<F>(origin, direction, t, active, Bundle::tight);
       const Mask<F> found = hit.found & active;
@@ -62,9 +64,10 @@ class SurfaceWalk {
         object = select(found, at.object, object);
         first = false;
       }
-      const Mask<F> passes = found & ((at.filter.r + at.filter.g + at.filter.b) > F(0));
+      const Rgb<F> left = filter * at.filter;  // zero, too, where it is too little for a number
+      const Mask<F> passes = found & (left.r + left.g + left.b > F(0));
       t_end = select(found & !passes, hit.t, t_end);
-      filter = select(passes, filter * at.filter, filter);
+      filter = select(passes, left, filter);
       through = select(passes, dim * at.filter, through);
       filtered = filtered || any(passes);
       t = hit.t;
@@ -74,9 +77,6 @@ class SurfaceWalk {
   }
 
  private:
-  /// Behind so many sheets of glass or leaves nothing is looked for any more.
-  static constexpr int most_crossings = 128;
-
   void add(int group, const Rgb<F>& light, Mask<F> where) noexcept {
     Rgb<F>& sum = radiance[std::size_t(group)];
     sum = select(where, sum + light, sum);
