@@ -87,6 +87,26 @@ TEST(InScatter, meets_the_closed_form_among_shadows) {
   }
 }
 
+TEST(InScatter, is_nothing_without_samples) {
+  for (const Sampled& estimator : {rewv, mcwvds}) {
+    const auto none = in_scatter(estimator, grey, sun, ray, 0, sampler, Unshadowed{});
+    EXPECT_EQ(none.radiance(), Rgb<double>());
+    EXPECT_EQ(none.unoccluded, Rgb<double>());
+  }
+}
+
+TEST(InScatter, sees_the_first_of_more_media_than_fit) {
+  std::vector<Medium> media(40, grey);
+  for (std::size_t i = 0; i < media.size(); ++i)
+    media[i].shape = Box{.min = {-1, -1, -2. * double(i) - 2}, .max = {1, 1, -2. * double(i)}};
+  const auto seen = [&](std::size_t count) {
+    return in_scatter(ClosedForm{}, std::span<const Medium>(media).first(count), sun, ray,
+                      Unshadowed{});
+  };
+  EXPECT_GT(seen(16).r, seen(15).r);
+  EXPECT_EQ(seen(40), seen(16));
+}
+
 TEST(InScatter, takes_a_function_for_a_world) {
   const VisibleBy number{[](auto from, auto, auto) { return from.z > 0 ? 1. : 0.; }};
   const VisibleBy colour{

@@ -394,6 +394,28 @@ TEST(JoinedMedia, are_the_same_in_every_arithmetic) {
   expect_same<FloatBatch>("T of a union in lanes, off by parts of the longest mean [m]", 1e-5);
 }
 
+TEST(JoinedMedia, say_what_fits_and_leave_out_what_does_not) {
+  const auto row_of = [](int count, const Shapes& one) {
+    std::vector<Medium> media(std::size_t(count), Medium{});
+    for (Medium& medium : media) medium.shape = one;
+    return media;
+  };
+  Convex prism;
+  prism.face_count = 20;
+  EXPECT_TRUE(Joined::fits({}));
+  EXPECT_TRUE(Joined::fits(row_of(16, Box{})));
+  EXPECT_FALSE(Joined::fits(row_of(17, Box{})));
+  EXPECT_TRUE(Joined::fits(row_of(4, prism)));
+  EXPECT_FALSE(Joined::fits(row_of(5, prism)));
+  EXPECT_FALSE(Joined::fits(row_of(2, Unbounded{})));
+
+  const std::vector<Medium> many = row_of(40, Box{});
+  const Joined joined(many);
+  const LocalRay<double> ray{{0, 0, -3}, {0, 0, 1}};
+  EXPECT_EQ(joined.stretches(ray, many[0]).length_before(15, 9.), 2);
+  EXPECT_EQ(joined.clip(ray).t_exit, 4);
+}
+
 TEST(JoinedMedia, have_room_for_sixteen_boxes) {
   Random random(12);
   for (int i = 0; i < 50; ++i) {

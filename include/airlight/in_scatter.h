@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "estimators.h"
 #include "media.h"
 
@@ -21,11 +23,11 @@ void with_medium_ray(std::span<const Medium> media, const CameraRay<F>& camera,
 
 /// What media scatter once from a light into a camera ray, estimated with samples 0 to
 /// samples − 1 of the sampler: the one call for a program that has a renderer of its own. Every
-/// four samples share a direction towards a light's disc. Add
-/// the estimates of several lights, and average those of several rays of a pixel, before
-/// `radiance()` is asked of the outcome. Ask `estimator.unsupported(medium, light)` first. Several
-/// media must be boxes or convex polyhedra that do not overlap, as many as `Joined` has room for.
-/// [W/(m² sr)]
+/// four samples share a direction towards a light's disc; no samples give zero. Add the estimates
+/// of several lights, and average those of several rays of a pixel, before `radiance()` is asked of
+/// the outcome. Ask `estimator.unsupported(medium, light)` first. Several media must be boxes or
+/// convex polyhedra that do not overlap, as many as `Joined::fits`; of more, only the first ones
+/// are seen.  [W/(m² sr)]
 template <Real F, class L, AnswersVisibility<F> W>
 Estimate<F> in_scatter(const Sampled& estimator, std::span<const Medium> media, const L& light,
                        const CameraRay<F>& camera, std::uint32_t samples, const Sampler<F>& sampler,
@@ -44,7 +46,7 @@ Estimate<F> in_scatter(const Sampled& estimator, std::span<const Medium> media, 
         }
       });
   sums[0] += sums[1];
-  return sums[0] * F(Scalar<F>(1) / Scalar<F>(samples));
+  return sums[0] * F(Scalar<F>(1) / Scalar<F>(std::max(samples, 1u)));
 }
 
 /// The same in closed form, exact. `world` tells which parts of the ray are lit; `Unshadowed{}`

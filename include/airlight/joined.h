@@ -30,8 +30,21 @@ class Joined {
   static constexpr int most_stretches = most_parts;
   static constexpr bool in_pieces = true;
 
-  /// Boxes and convex polyhedra, as many and with as many faces as fit; `fits` says whether.
+  /// Whether there is room for these media and all are boxes or convex polyhedra. Whether they
+  /// overlap is not looked at.
+  static bool fits(std::span<const Medium> media) noexcept {
+    int faces = 0;
+    for (const Medium& medium : media) {
+      const int own = face_count(medium.shape);
+      if (own == 0) return false;
+      faces += own;
+    }
+    return media.size() <= most_parts && faces <= most_faces;
+  }
+
+  /// Media that fit; of others those before the first that has no room.
   explicit Joined(std::span<const Medium> media) noexcept : media_(media.data()) {
+    while (!fits(media)) media = media.first(media.size() - 1);
     for (const Medium& medium : media) {
       const Convex body = as_convex(medium.shape);
       centre_ = centre_ + body.centre * (1. / double(media.size()));
@@ -44,6 +57,12 @@ class Joined {
       for (int k = 0; k < body.face_count; ++k)
         faces_[part.first + k] = {body.faces[k].n, body.faces[k].h - dot(body.faces[k].n, centre_)};
     }
+  }
+
+  /// Of a box or a polyhedron; 0 of any other shape.
+  static int face_count(const Shapes& shape) noexcept {
+    if (const auto* convex = std::get_if<Convex>(&shape)) return convex->face_count;
+    return std::holds_alternative<Box>(shape) ? 6 : 0;
   }
 
   /// A box or a polyhedron as its faces; an unbounded medium has none.

@@ -13,13 +13,12 @@ std::optional<std::string> cannot_be_joined(std::span<const Medium> media) {
     return fmt::format("are {}; accepted: up to {} side by side", media.size(), Joined::most_parts);
   int faces = 0;
   for (std::size_t i = 0; i < media.size(); ++i) {
-    if (!std::holds_alternative<Box>(media[i].shape) &&
-        !std::holds_alternative<Convex>(media[i].shape))
+    if (Joined::face_count(media[i].shape) == 0)
       return fmt::format(
           "cannot lie side by side, as media.{} is of type {}; accepted: several of type box or "
           "convex, or one alone of any type",
           i, std::visit([](const auto& shape) { return shape.name; }, media[i].shape));
-    faces += Joined::as_convex(media[i].shape).face_count;
+    faces += Joined::face_count(media[i].shape);
   }
   if (faces > Joined::most_faces)
     return fmt::format("have {} faces together; accepted: up to {}", faces, Joined::most_faces);
