@@ -21,6 +21,7 @@ set(public_headers
   scene/document.h
   scene/load_scene.h
   scene/render_settings.h
+  scene/room_behind.h
   scene/scene.h
   render/checkpoint.h
   render/checkpoint_plan.h

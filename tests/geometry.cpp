@@ -690,5 +690,30 @@ TEST(World, knows_its_bounds) {
   EXPECT_EQ(bounds.high, Vec3<double>(7, 4, 1));
 }
 
+// Whatever their number: a copy of a list has no more room than elements.
+TEST(World, shares_the_positions_and_triangles_of_meshes_with_its_scene) {
+  Scene scene;
+  for (int count = 3; count <= 17; ++count) {
+    Mesh mesh;
+    for (int i = 0; i < count; ++i)
+      mesh.positions.emplace_back(float(i), float(i % 3), float(i % 2));
+    for (std::uint32_t i = 2; i < std::uint32_t(count); ++i)
+      mesh.triangles.push_back({0, i - 1, i});
+    scene.objects.push_back({"fan", mesh, {}});
+  }
+  const Scene copy = scene;
+  for (const Scene* one : {&std::as_const(scene), &copy}) {
+    const World world(*one, Visibility::embree);
+    for (unsigned id = 0; id < one->objects.size(); ++id) {
+      const RTCGeometry geometry = rtcGetGeometry(world.embree(), id);
+      const Mesh& mesh = std::get<Mesh>(one->objects[id].geometry);
+      EXPECT_EQ(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0),
+                mesh.positions.data());
+      EXPECT_EQ(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0),
+                mesh.triangles.data());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace airlight

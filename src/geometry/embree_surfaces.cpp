@@ -90,14 +90,8 @@ void EmbreeSurfaces::attach(std::uint32_t id, const SurfaceFilter& surface) {
     using Position = decltype(mesh->positions)::value_type;
     using Triangle = decltype(mesh->triangles)::value_type;
     const auto& positions = mesh->positions;
-    // Embree reads 16 bytes from every position: the last one needs room behind it.
-    if (positions.capacity() > positions.size())
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                 positions.data(), 0, sizeof(Position), positions.size());
-    else if (void* copy =
-                 rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                         sizeof(Position), positions.size()))
-      std::memcpy(copy, positions.data(), positions.size() * sizeof(Position));
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               positions.data(), 0, sizeof(Position), positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                mesh->triangles.data(), 0, sizeof(Triangle), mesh->triangles.size());
   } else {

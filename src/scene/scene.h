@@ -10,6 +10,7 @@
 #include "image/image.h"
 #include "image/texture.h"
 #include "render_settings.h"
+#include "room_behind.h"
 
 namespace airlight {
 
@@ -59,8 +60,8 @@ struct Material {
 
 /// Triangles in world space.
 struct Mesh {
-  std::vector<Vec3<float>> positions;  ///< [m]
-  std::vector<Vec3<float>> normals;    ///< one a position, or none: the triangles' own then count
+  std::vector<Vec3<float>, RoomBehind<Vec3<float>>> positions;  ///< [m]
+  std::vector<Vec3<float>> normals;  ///< one a position, or none: the triangles' own then count
   std::vector<std::array<float, 2>> uvs;  ///< one a position, or none; v points up
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
