@@ -62,6 +62,27 @@ Model room_with_skylight() {
   return model;
 }
 
+/// Ground of 80 m by 80 m in waves around its middle, which lies 8 m above a hollow and 8 m below
+/// the ridge about it.
+Model terrain() {
+  constexpr int n = 81;
+  Mesh mesh;
+  for (int z = 0; z < n; ++z)
+    for (int x = 0; x < n; ++x) {
+      const double y = -8 * std::cos(pi / 12 * std::hypot(x - 40, z - 40));
+      mesh.positions.emplace_back(float(x), float(y), float(z));
+    }
+  for (std::uint32_t z = 0; z + 1 < n; ++z)
+    for (std::uint32_t x = 0; x + 1 < n; ++x) {
+      const std::uint32_t at = z * n + x;
+      mesh.triangles.push_back({at, at + n, at + 1});
+      mesh.triangles.push_back({at + 1, at + n, at + n + 1});
+    }
+  Model model;
+  model.objects.push_back(object(std::move(mesh)));
+  return model;
+}
+
 /// What a stand-in's scene file means, the model itself left out.
 Scene scene_of(const StandIn& stand_in, const Model& model) {
   const std::string toml = stand_in.toml(model);
@@ -109,6 +130,27 @@ TEST(StandIn, sees_a_thing_from_outside) {
     EXPECT_LT(fog.min[k], 0);
     EXPECT_GT(fog.max[k], 2);
   }
+}
+
+TEST(LookAround, measures_the_light_of_the_sky) {
+  const std::vector<Object> nothing, roofed = room().objects;
+  EXPECT_EQ(light_of_the_sky(nothing, {0, 0, 0}), 1);
+  EXPECT_LT(light_of_the_sky(roofed, {3, 1.5, 2}), 0.1);
+  // A ball of radius 1 takes sin² of its own angle, (1 / 2)², from a place 2 m below its centre.
+  const std::vector<Object> ball = {{"ball", Sphere{{0, 2, 0}, 1}, {}}};
+  EXPECT_NEAR(light_of_the_sky(ball, {0, 0, 0}), 0.75, 0.02);
+}
+
+TEST(StandIn, sees_a_terrain_from_outside_whatever_its_valleys_hide) {
+  const Model model = terrain();
+  const auto middle = look_around(model.objects, {bounds_of(model.objects).centre()})[0];
+  EXPECT_GT(middle.enclosed(), 0.7);
+  EXPECT_THAT(StandIn(model, "terrain.obj").remark({}), HasSubstr("a camera outside at "));
+}
+
+TEST(StandIn, sees_a_room_with_a_skylight_from_inside) {
+  EXPECT_THAT(StandIn(room_with_skylight(), "room.obj").remark({}),
+              HasSubstr("a camera in the room at "));
 }
 
 TEST(StandIn, sees_a_room_from_inside_with_the_sun_in_its_window) {

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t n = Panorama::directions;
 
+constexpr double golden_angle = 2.399963229728653;
+
 constexpr double lowest = -0.5, highest = 0.866;  ///< heights above the horizon, as sines
 
 /// Fibonacci's spiral on a belt of the sphere, from 30 degrees below the horizon to 60 above.
@@ -18,7 +20,6 @@ struct Directions {
   std::array<float, n> x, y, z;
 
   Directions() {
-    constexpr double golden_angle = 2.399963229728653;
     for (std::size_t i = 0; i < n; ++i) {
       const double height = lowest + (highest - lowest) * (double(i) + 0.5) / double(n);
       const double radius = std::sqrt(1 - height * height), azimuth = golden_angle * double(i);
@@ -279,6 +280,18 @@ std::vector<std::uint8_t> see_the_sky(const std::vector<Object>& objects,
     result[s] = is_free;
   });
   return result;
+}
+
+double light_of_the_sky(const std::vector<Object>& objects, Vec3<double> place) {
+  constexpr int count = 128;
+  std::vector<Sight> sights;
+  for (int i = 0; i < count; ++i) {  // as many in every direction as the cosine of its zenith angle
+    const double radius = std::sqrt((i + 0.5) / count), azimuth = golden_angle * i;
+    sights.push_back(
+        {place,
+         {radius * std::cos(azimuth), std::sqrt(1 - radius * radius), radius * std::sin(azimuth)}});
+  }
+  return double(std::ranges::count(see_the_sky(objects, sights), 1)) / count;
 }
 
 }  // namespace airlight

@@ -52,4 +52,7 @@ struct Sight {
 std::vector<std::uint8_t> see_the_sky(const std::vector<Object>& objects,
                                       const std::vector<Sight>& sights);
 
+/// The part of the light of an evenly bright sky that falls on a level place.
+double light_of_the_sky(const std::vector<Object>& objects, Vec3<double> place);
+
 }  // namespace airlight

@@ -50,11 +50,13 @@ std::optional<Vec> sun_of(const Model& model) {
   return model.lights[0].toward();
 }
 
-/// A room shows the front of its surfaces all around to someone in its middle.
+/// A room shows the front of its surfaces all around to someone in its middle, as a valley does,
+/// too, but its roof takes more than half of the sky's light.
 View view_of(const Model& model) {
   const Bounds bounds = bounds_of(model.objects);
   const Panorama middle = look_around(model.objects, {bounds.centre()})[0];
-  if (middle.enclosed() < 0.7) return outside_view(bounds);
+  if (middle.enclosed() < 0.7 || light_of_the_sky(model.objects, bounds.centre()) > 0.5)
+    return outside_view(bounds);
   const RoomView inside = room_view(model.objects, middle, bounds, model.camera, sun_of(model));
   return {true, inside.camera, {inside.azimuth, inside.elevation}, inside.room};
 }
