@@ -25,9 +25,10 @@ enum class Storage {
 struct Layer {
   std::string name;  ///< prefix of the EXR channels ("depth" gives depth.Z) and word in errors
   std::vector<std::string> channels;  ///< such as R, G, B, or X, Y, Z, or Z
-  /// Writes row y (0 on top): width * channels values, interleaved. Asked one row at a time by one
-  /// thread, in any order. A value that is not finite makes the writer throw an Error with layer
-  /// and pixel.
+  /// Writes row y (0 on top): width * channels values, interleaved. All layers of a picture
+  /// together are asked by one thread at a time, in any order of layers and rows. They may share
+  /// what is read of a row: who asks all layers for it before the next has it read once. A value
+  /// that is not finite makes the writer throw an Error with layer and pixel.
   std::function<void(int y, std::span<float> row)> fill;
   Storage storage = Storage::colour;
 };

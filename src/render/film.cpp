@@ -259,7 +259,8 @@ std::int64_t Film::samples() const {
 
 namespace {
 
-/// A row of pixels of all groups, read once for all layers that are asked for it in turn.
+/// A row of pixels of all groups, read once for all layers that are asked for it in turn, as
+/// `Layer::fill` allows.
 class PixelRow {
  public:
   explicit PixelRow(const Film& film) : film_(film) {}

@@ -102,8 +102,9 @@ class Film {
   /// Samples that every pixel has.
   std::int64_t samples() const;
 
-  /// The beauty and every other layer, as something to write; refers to the film. Its metadata tell
-  /// the samples and their seeds.
+  /// The beauty and every other layer, as something to write. It refers to the film, which must
+  /// stay where and as it is: the layers share the row of pixels that one of them read last, and
+  /// would show what it was. Its metadata tell the samples and their seeds.
   Picture picture() const;
 
   /// The radiance of one pixel of the crop: in-scatter, surfaces and background.
