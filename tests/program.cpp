@@ -552,6 +552,23 @@ TEST(Compare, refuses_what_it_would_not_heed_or_cannot_trust) {
   EXPECT_EQ(compare(desk, {"--reference", desk / "a.exr", "--spp", "1", "--seeds", "1"}).status, 0);
 }
 
+TEST(Compare, reads_its_reference_once) {
+  const Desk desk;
+  ASSERT_EQ(desk.render("a.exr").status, 0);
+  const std::string picture = bytes_of(desk / "a.exr");
+  ASSERT_LT(picture.size(), 1 << 16);  // it fits into a pipe
+  const Outcome outcome = run({"compare", desk.scene, "-o", desk / "report", "--reference",
+                               "/dev/stdin", "--spp", "1", "--seeds", "1", "--estimators", "rewv"},
+                              {.before = [&] {
+                                int ends[2];
+                                if (pipe(ends) != 0) _exit(1);
+                                if (write(ends[1], picture.data(), picture.size()) < 0) _exit(1);
+                                close(ends[1]);
+                                dup2(ends[0], STDIN_FILENO);
+                              }});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
 // ---- probe and info
 
 TEST(Probe, prints_json_that_tells_what_the_picture_shows) {

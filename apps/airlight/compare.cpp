@@ -60,10 +60,11 @@ int compare(Flags& flags) {
   flags.settings.spp.erase(std::ranges::unique(flags.settings.spp).begin(),
                            flags.settings.spp.end());
   const airlight::Scene scene = flags.scene.load();
-  airlight::check_comparison(scene, flags.settings);
+  airlight::Image reference = airlight::check_comparison(scene, flags.settings);
   if (!flags.quiet) SceneFlags::tell(scene);
   airlight::make_folder(flags.folder);
-  const airlight::Comparison comparison = airlight::compare_estimators(scene, flags.settings);
+  const airlight::Comparison comparison =
+      airlight::compare_estimators(scene, flags.settings, std::move(reference));
   airlight::write_comparison(comparison, flags.scene.file().filename().string(), flags.folder);
   if (const std::string warning = airlight::warning_of(comparison);
       !flags.quiet && !warning.empty())

@@ -22,12 +22,7 @@ Image linear(const Codes& codes) {
   return image;
 }
 
-}  // namespace
-
-Image read_image(const std::filesystem::path& path, const std::string& layer) {
-  const std::vector<std::byte> bytes = read_file(path);
-  const std::string name = path.string();
-  const Encoded encoded{bytes, name};
+Image image_of(const Encoded& encoded, const std::string& layer) {
   if (is_exr(encoded)) return decode_exr(encoded, layer);
   if (!layer.empty()) fail_to_decode(encoded, "only EXR files have a layer \"" + layer + "\"");
   if (is_pfm(encoded)) return decode_pfm(encoded);
@@ -36,11 +31,20 @@ Image read_image(const std::filesystem::path& path, const std::string& layer) {
   return linear(decode_codes(encoded));
 }
 
-bool holds_radiance(const std::filesystem::path& path) {
+}  // namespace
+
+Image read_image(const std::filesystem::path& path, const std::string& layer) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const std::string name = path.string();
+  return image_of({bytes, name}, layer);
+}
+
+std::optional<Image> read_radiance(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string name = path.string();
   const Encoded encoded{bytes, name};
-  return is_exr(encoded) || is_pfm(encoded) || is_hdr(encoded);
+  if (!is_exr(encoded) && !is_pfm(encoded) && !is_hdr(encoded)) return std::nullopt;
+  return image_of(encoded, "");
 }
 
 Numbers read_numbers(const std::filesystem::path& path, const std::string& channel) {

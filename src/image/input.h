@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "image/picture.h"
@@ -17,9 +18,9 @@ namespace airlight {
 /// such a picture.
 Image read_image(const std::filesystem::path& path, const std::string& layer = "");
 
-/// Whether a file's content holds linear light without an end (EXR, PFM, HDR) rather than codes for
-/// a screen, which end at white.
-bool holds_radiance(const std::filesystem::path& path);
+/// The same of a file whose content is linear light without an end (EXR, PFM, HDR); none where it
+/// is codes for a screen, which end at white.
+std::optional<Image> read_radiance(const std::filesystem::path& path);
 
 /// Numbers that are no colours, one a pixel.
 struct Numbers {

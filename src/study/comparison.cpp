@@ -54,23 +54,22 @@ Rendered whole(Rendered rendered, const RenderSettings& settings) {
 }
 
 Image reference_of(const std::filesystem::path& file, Resolution resolution) {
-  if (!holds_radiance(file))
+  std::optional<Image> found = read_radiance(file);
+  if (!found)
     throw Error(fmt::format(
         "--reference {}: is a picture for a screen, its light clipped at white or tone-mapped; "
         "accepted: .exr, .pfm or .hdr",
         file.string()));
-  Image image = read_image(file);
-  if (image.width != resolution.width || image.height != resolution.height)
+  if (found->width != resolution.width || found->height != resolution.height)
     throw Error(fmt::format("{}: is {} x {} pixels; accepted: a reference of the scene's {} x {}",
-                            file.string(), image.width, image.height, resolution.width,
+                            file.string(), found->width, found->height, resolution.width,
                             resolution.height));
-  return image;
+  return *std::move(found);
 }
 
 void make_reference(const Scene& scene, const ComparisonSettings& settings, Renderer& renderer,
                     Comparison& comparison) {
   if (!settings.reference_file.empty()) {
-    comparison.reference = reference_of(settings.reference_file, scene.resolution);
     comparison.reference_source = "the picture " + settings.reference_file.filename().string();
     return;
   }
@@ -152,7 +151,7 @@ std::string warning_of(const Comparison& comparison) {
                      rows);
 }
 
-void check_comparison(const Scene& scene, const ComparisonSettings& settings) {
+Image check_comparison(const Scene& scene, const ComparisonSettings& settings) {
   for (const std::string& estimator : settings.estimators) {
     RenderSettings one = scene.render;
     one.estimator = estimator;
@@ -163,13 +162,19 @@ void check_comparison(const Scene& scene, const ComparisonSettings& settings) {
     }
     check_settings(scene, one);
   }
-  if (!settings.reference_file.empty()) reference_of(settings.reference_file, scene.resolution);
+  if (settings.reference_file.empty()) return {};
+  return reference_of(settings.reference_file, scene.resolution);
 }
 
 Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings) {
-  check_comparison(scene, settings);
+  return compare_estimators(scene, settings, check_comparison(scene, settings));
+}
+
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings,
+                              Image reference) {
   Renderer renderer(scene);
   Comparison comparison;
+  comparison.reference = std::move(reference);
   make_reference(scene, settings, renderer, comparison);
 
   const std::vector<std::int64_t> counts =

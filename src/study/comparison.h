@@ -48,11 +48,15 @@ struct Comparison {
 std::string warning_of(const Comparison& comparison);
 
 /// Throws Error where an estimator is not known or can't serve the scene, or the picture to compare
-/// with does not fit; traces no ray.
-void check_comparison(const Scene& scene, const ComparisonSettings& settings);
+/// with does not fit; traces no ray. Gives back that picture; an empty one if none is named.
+Image check_comparison(const Scene& scene, const ComparisonSettings& settings);
 
 /// Renders every estimator at every count with every seed and measures its distance to the
-/// reference. Throws what `check_comparison` throws.
+/// reference, which is what `check_comparison` gave back, or computed if that is empty.
+Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings,
+                              Image reference);
+
+/// The same, checked first.
 Comparison compare_estimators(const Scene& scene, const ComparisonSettings& settings);
 
 /// Writes index.html, results.csv and the pictures into a folder, which is made if it is missing.
