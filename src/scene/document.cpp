@@ -86,6 +86,10 @@ std::vector<std::string> split(const std::string& path) {
 /// bare word.
 Value parse_value(const Override& change, const Source& source) {
   const auto word = [&] { return Value{change.value, {source}, {source}}; };
+  if (change.value.empty())
+    throw Error(change.said +
+                ": the value is missing; accepted: one as in a scene file, such as "
+                "lights.0.irradiance=3, or \"\" for an empty text");
   if (change.value.find('\n') != std::string::npos) return word();
   try {
     const toml::table table = toml::parse("v = " + change.value);
@@ -101,7 +105,7 @@ Value parse_value(const Override& change, const Source& source) {
     return value;
   } catch (const toml::parse_error& error) {
     constexpr std::string_view openers = "[{\"'";
-    if (change.value.empty() || openers.find(change.value[0]) != std::string_view::npos)
+    if (openers.find(change.value[0]) != std::string_view::npos)
       throw Error(fmt::format("{}: the value is not TOML: {}", change.said,
                               one_line(std::string(error.description()))));
     double number = 0;  // such as ".5", which TOML wants as "0.5"
