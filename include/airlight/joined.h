@@ -257,22 +257,21 @@ class Joined {
       return select(within, max(exit - entry, F(0)), F(0));
     }
 
-    /// Every t in [0, t_max] where τ may have a kink or jump; how many.
+    /// Every t in (0, t_max) where τ may have a kink or jump; how many.
     int kinks(F* kinks) const noexcept {
       int n = 0;
       for (int j = 0; j < joined_.part_count_; ++j) {
         const Range& range = ranges_[j];
         if (!range.meets) continue;
-        kinks[n++] = range.meets_from, kinks[n++] = range.meets_to;
-        if (any((range.from > F(0)) | (range.to < t_max_)))
-          kinks[n++] = range.from, kinks[n++] = range.to;
+        n = add(range.meets_from, kinks, n), n = add(range.meets_to, kinks, n);
+        n = add(range.from, kinks, n), n = add(range.to, kinks, n);
         n = envelope(front_ + range.front, range.front_end - range.front, false, kinks, n);
         n = envelope(back_ + range.back, range.back_end - range.back, true, kinks, n);
         // Where p(t) itself passes the body's back.
         F from(0), to = t_max_;
         for (int k = range.back; k < range.back_end; ++k)
           keep_below(-back_[k].a, back_[k].b, back_[k].a > F(-far_away), from, to);
-        kinks[n++] = from, kinks[n++] = to;
+        n = add(from, kinks, n), n = add(to, kinks, n);
       }
       return n;
     }
@@ -300,6 +299,13 @@ class Joined {
       to = select(never, F(-1), to);
     }
 
+    /// Adds a kink that some lane has inside of its ray.
+    int add(F t, F* kinks, int n) const noexcept {
+      if (!any((t > F(0)) & (t < t_max_))) return n;
+      kinks[n] = t;
+      return n + 1;
+    }
+
     /// Adds the kinks of the lower envelope of lines, or of the upper one.
     int envelope(const Line* lines, int count, bool upper, F* kinks, int n) const noexcept {
       const F sign(upper ? Scalar<F>(-1) : Scalar<F>(1));
@@ -323,7 +329,7 @@ class Joined {
         }
         if (!any(b_next < b)) break;
         t = clamp(t_next, t, t_max_);
-        kinks[n++] = t;
+        n = add(t, kinks, n);
         a = a_next, b = b_next;
       }
       return n;

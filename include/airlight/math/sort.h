@@ -13,9 +13,9 @@ template <class Exchange>
 constexpr void merge_exchange(int n, Exchange&& exchange) {
   for (int p = 1; p < n; p *= 2)
     for (int k = p; k > 0; k /= 2)
-      for (int j = k % p; j + k < n; j += 2 * k)
+      for (int j = k & (p - 1); j + k < n; j += 2 * k)
         for (int i = j; i < j + k && i + k < n; ++i)
-          if (i / (2 * p) == (i + k) / (2 * p)) exchange(i, i + k);
+          if ((i ^ (i + k)) < 2 * p) exchange(i, i + k);  // both in one block of 2 p
 }
 
 /// Sorts n numbers upwards, lane by lane.
