@@ -474,8 +474,8 @@ TEST(Overrides, are_named_in_errors) {
   for (const char* nothing : {"render.spp=", "x=", "lights.0.irradiance =  "})
     EXPECT_EQ(error_of(sun, {nothing}),
               std::string("-D ") + nothing +
-                  ": the value is missing; accepted: one as in a scene file, such as "
-                  "lights.0.irradiance=3, or \"\" for an empty text");
+                  ": the value is missing; accepted: one as a scene file says it, such as 3, "
+                  "[1, 2, 3] or rewv, and \"\" for an empty text");
   EXPECT_THAT(error_of(sun, {"render.spp=0"}),
               StartsWith("-D render.spp=0: render.spp = 0 is out"));
   EXPECT_THAT(error_of(sun, {{"render.spp", "0", "--spp 0"}}), StartsWith("--spp 0: render.spp"));

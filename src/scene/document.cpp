@@ -88,8 +88,8 @@ Value parse_value(const Override& change, const Source& source) {
   const auto word = [&] { return Value{change.value, {source}, {source}}; };
   if (change.value.empty())
     throw Error(change.said +
-                ": the value is missing; accepted: one as in a scene file, such as "
-                "lights.0.irradiance=3, or \"\" for an empty text");
+                ": the value is missing; accepted: one as a scene file says it, such as 3, "
+                "[1, 2, 3] or rewv, and \"\" for an empty text");
   if (change.value.find('\n') != std::string::npos) return word();
   try {
     const toml::table table = toml::parse("v = " + change.value);
