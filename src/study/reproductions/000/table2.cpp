@@ -28,9 +28,9 @@ struct Published {
   const char* gpu;
   double breakfast, fireplace;
 };
-constexpr Published published[] = {{128, "AMD Radeon Pro 560X", 37. / 40, 24. / 28},
-                                   {256, "NVIDIA GeForce GTX 980 Ti", 10.3 / 9.2, 10.2 / 9.3},
-                                   {1024, "NVIDIA Quadro RTX 8000", 11.0 / 10.4, 10.7 / 9.5}};
+constexpr Published published[] = {{128, "Pro 560X", 37. / 40, 24. / 28},
+                                   {256, "GTX 980 Ti", 10.3 / 9.2, 10.2 / 9.3},
+                                   {1024, "RTX 8000", 11.0 / 10.4, 10.7 / 9.5}};
 
 constexpr int timed_width = 128;   ///< of pictures of many samples
 constexpr int judged_width = 240;  ///< where errors are measured
@@ -127,7 +127,8 @@ void add_cells(std::vector<Cell>& row, const std::vector<Round>& times, std::siz
 void equal_samples(Reproduced& out, const View& view) {
   Stopwatch watch(view);
   Table table{.caption = fmt::format("{}, {} × {} pixels: medians over {} rounds, in each of which "
-                                     "all methods take turns.",
+                                     "all methods take turns; to the right the paper's quotients "
+                                     "in its two rooms.",
                                      view.name, view.scene.resolution.width,
                                      view.scene.resolution.height, rounds)};
   table.columns = {{.name = "spp"}, {.name = "method"}};
