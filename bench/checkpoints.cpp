@@ -37,7 +37,7 @@ std::vector<Row> checkpoints() {
     settings.spp *= 2;
   const std::filesystem::path a = file("a.ckpt"), b = file("b.ckpt"), sum = file("sum.exr");
   const double kept = median_ratio(
-      3, [&] { render_into(a, every); }, [&] { renderer.render(settings); });
+      5, [&] { render_into(a, every); }, [&] { renderer.render(settings); });
 
   settings.first_sample = settings.spp;
   const double rendering = seconds([&] { render_into(b, 1e6); });
