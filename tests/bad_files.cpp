@@ -1,5 +1,6 @@
 // Files that cannot serve: the program says so in one line, ends with status 2, writes nothing and
 // leaves what is there as it was.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
@@ -39,12 +40,11 @@ std::string tetrahedron(double z, int first, int sides) {
   std::string text;
   for (const std::array<double, 3>& p :
        {std::array{-1., -1., z - 1}, {1., -1., z - 1}, {0., 1., z - 1}, {0., 0., z + 1}})
-    text += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) +
-            "\n";
+    text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
   const std::array<int, 3> corners[] = {{1, 3, 2}, {1, 2, 4}, {2, 3, 4}, {3, 1, 4}};
   for (int i = 0; i < sides; ++i) {
     text += "f";
-    for (const int corner : corners[i]) text += " " + std::to_string(first + corner);
+    for (const int corner : corners[i]) text += fmt::format(" {}", first + corner);
     text += "\n";
   }
   return text;
