@@ -133,9 +133,8 @@ void equal_samples(Reproduced& out, const View& view) {
                                      view.scene.resolution.height, rounds)};
   table.columns = {{.name = "spp"}, {.name = "method"}};
   add_columns(table);
-  table.columns.insert(
-      table.columns.end(),
-      {{.name = "paper: breakfast room"}, {.name = "fireplace room"}, {.name = "on a"}});
+  table.columns.insert(table.columns.end(),
+                       {{.name = "breakfast"}, {.name = "fireplace"}, {.name = "on a"}});
   table.group_by = 0;
   for (const Published& paper : published) {
     const std::vector<Round> times =
