@@ -253,8 +253,8 @@ void table2(Reproduced& out) {
     out.page.paragraph(fmt::format(
         "The view in thicker fog was chosen after seeing numbers; that MCWVDS gets its fog to the "
         "error of RM {} times as fast is asked of it alone, and of the fog's time, as the paper "
-        "measures it, not of the picture's: of a picture of so few samples the fog is the smaller "
-        "part. In the sunroom as its scene file has it RM gets there first.",
+        "measures it, not of the picture's: about half of a picture of so few samples goes into "
+        "what both methods share. In the sunroom as its scene file has it RM gets there first.",
         least_speedup));
     out.page.paragraph(dark.about);
     equal_samples(out, from_the_dark(timed_width));
