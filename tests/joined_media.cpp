@@ -195,22 +195,22 @@ TEST(JoinedMedia, invert_their_distribution_in_order) {
   Worst worst("distribution of a sample, off u by");
   Random random(3);
   for (const auto& one : traced(120, kinds, 3))
-    for (int c = 0; c < 3; c += 2) {  // the middle one runs backwards
+    for (const Channels<double, 3>& chance :
+         {Channels<double, 3>{1, 0, 0}, {0, 0, 1}, {0.2, 0.5, 0.3}}) {
       const auto& [all, media, joined, below, section] = *one;
-      Channels<double, 3> chance{};
-      chance[c] = 1;
       std::vector<double> us = {0, 0x1p-53, 1e-9, 1 - 1e-9, 1 - 1e-16, 1};
       for (int i = 0; i < 20; ++i) us.push_back(random.uniform());
       std::ranges::sort(us);
       double before = 0;
       for (const double u : us) {
-        const ChannelPick<double, 3> pick(chance, u);
-        const double t = section.draw(pick);
+        const double t = section.draw(section.shares(chance), u);
         ASSERT_GE(t, before) << all << " u " << u;
         ASSERT_LE(t, all.ray.t_max) << all << " u " << u;
         before = t;
-        const double part = section.integral_between(0, t)[c] / section.integral[c];
-        worst.see(std::abs(part - pick.u), all);
+        const Channels<double, 3> before_t = section.integral_between(0, t);
+        double part = 0;
+        for (int c = 0; c < 3; ++c) part += chance[c] * before_t[c] / section.integral[c];
+        worst.see(std::abs(part - u), all);
       }
     }
   worst.expect_below(5e-14);
@@ -252,7 +252,7 @@ TEST(JoinedMedia, are_drawn_from_in_proportion_to_what_reaches_the_camera) {
     const double whole = all.integral(0, base, 0, all.ray.t_max);
     const Channels<double, 3> first{1, 0, 0};
     const double p = test::chi_squared_p(
-        64, 20'000, [&](double u) { return section.draw(ChannelPick<double, 3>(first, u)); },
+        64, 20'000, [&](double u) { return section.draw(section.shares(first), u); },
         [&](double t) {
           return all.strength(t, 0) * double(std::exp(base - all.depth(t, 0))) / whole;
         },

@@ -320,7 +320,7 @@ TEST(SolidMedium, stays_finite_where_rays_meet_edges_and_corners) {
           ASSERT_GE(section.integral[c], 0) << ray;
           ASSERT_LE(section.integral[c], 4 * medium.sigma_s[c] * 4) << ray;
         }
-        const double t = section.draw(ChannelPick<double, 3>({1, 0, 0}, 0.5));
+        const double t = section.draw(section.shares({1, 0, 0}), 0.5);
         ASSERT_TRUE(t >= 0 && t <= 4) << ray << " " << t;
       }
 }

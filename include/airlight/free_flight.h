@@ -5,6 +5,38 @@
 
 namespace airlight::inline AIRLIGHT_ISA {
 
+/// A channel drawn by u, lane by lane, and u made uniform in [0, 1] again: one number serves both,
+/// and strata stay strata. Every other channel runs backwards, so that what is drawn depends on u
+/// without a jump from one channel to the next.
+template <Real F, int channels>
+struct ChannelPick {
+  F u;
+  std::array<Mask<F>, channels> is;  ///< the last that holds is the channel drawn
+
+  ChannelPick(const Channels<F, channels>& chance, F u_) noexcept : u(u_) {
+    if constexpr (channels > 1) {
+      F below(0), begin(0), width = chance[0];
+      Mask<F> backwards = u_ < F(0);
+      for (int c = 1; c < channels; ++c) {
+        below = below + chance[c - 1];
+        is[c] = (u_ >= below) & (chance[c] > F(0));
+        begin = select(is[c], below, begin);
+        width = select(is[c], chance[c], width);
+        backwards = c % 2 == 1 ? (backwards | is[c]) : (backwards & (u_ < below));
+      }
+      u = clamp((u_ - begin) / select(width > F(0), width, F(1)), F(0), F(1));
+      u = select(backwards, F(1) - u, u);
+    }
+  }
+
+  /// The value of the channel drawn.
+  F of(const Channels<F, channels>& values) const noexcept {
+    F result = values[0];
+    for (int c = 1; c < channels; ++c) result = select(is[c], values[c], result);
+    return result;
+  }
+};
+
 /// The way of a free flight through one medium that fills it: t counts from where the flight
 /// begins.
 template <Real F, int channels>

@@ -104,33 +104,44 @@ struct Pieces {
     return result;
   }
 
-  /// A distance with density s(t) e^{−τ(t)} / T of the channel picked, lane by lane: the
-  /// distribution function inverted, monotone in u.
-  template <class Pick>
-  F sample(const Pick& pick) const noexcept {
-    const F x = pick.u * pick.of(total);
-    F below(0), seen(0), here = pick.of(integral[0]);
-    F t0 = t[0], t1 = t[1], near = picked(pick, begin[0]), far = picked(pick, end[0]);
-    for (int i = 1; i < count; ++i) {
-      seen = seen + pick.of(integral[i - 1]);
-      const F next = pick.of(integral[i]);
-      const Mask<F> beyond = (x >= seen) & (next > F(0));
-      if (!any(beyond)) continue;
-      below = select(beyond, seen, below);
-      here = select(beyond, next, here);
-      t0 = select(beyond, t[i], t0);
-      t1 = select(beyond, t[i + 1], t1);
-      near = select(beyond, picked(pick, begin[i]), near);
-      far = select(beyond, picked(pick, end[i]), far);
+  /// What makes `sample` pick channel c with this chance.
+  Channels<F, channels> shares(const Channels<F, channels>& chance) const noexcept {
+    Channels<F, channels> result;
+    for (int c = 0; c < channels; ++c)
+      result[c] = select(total[c] > F(0), chance[c] / max(total[c], F(1e-30f)), F(0));
+    return result;
+  }
+
+  /// A distance with density Σ_c share_c s_c(t) e^{depth_c − τ_c(t)}: its distribution function
+  /// inverted, monotone in u in [0, 1].
+  F sample(const Channels<F, channels>& share, F u) const noexcept {
+    PiecePick<F> pick(u);  // all pieces hold 1 together
+    F t0 = t[0], t1 = t[1];
+    Depths from = begin[0], to = end[0], scatters = strength[0];
+    for (int i = 0; i < count; ++i) {
+      F mass(0);
+      for (int c = 0; c < channels; ++c) mass = fma(share[c], integral[i][c], mass);
+      const Mask<F> reached = pick.reaches(mass);
+      if (i == 0 || !any(reached)) continue;
+      t0 = select(reached, t[i], t0);
+      t1 = select(reached, t[i + 1], t1);
+      for (int k = 0; k < depths; ++k) {
+        from[k] = select(reached, begin[i][k], from[k]);
+        to[k] = select(reached, end[i][k], to[k]);
+        scatters[k] = select(reached, strength[i][k], scatters[k]);
+      }
     }
-    const F v = clamp((x - below) / select(here > F(0), here, F(1)), F(0), F(1));
-    const F sigma = pick.of(sigma_t);
-    near = near * (depths == 1 ? sigma : F(1));
-    far = far * (depths == 1 ? sigma : F(1));
-    const Mask<F> rising = far >= near;
-    const F from_low = exponential_fraction(abs(far - near), select(rising, v, F(1) - v));
-    const F g = select(rising, from_low, F(1) - from_low);
-    return clamp(fma(g, t1 - t0, t0), t0, t1);
+    const F width = t1 - t0;
+    ExponentialSum<F, channels> density;
+    for (int c = 0; c < channels; ++c) {
+      const F x = max(depth_of(from, c) - depth[c], F(0)),
+              y = max(depth_of(to, c) - depth[c], F(0));
+      const F scale = share[c] * strength_of(scatters, c) * width;
+      density.begin[c] = scale * exp(-x), density.end[c] = scale * exp(-y);
+      density.drop[c] = y - x;
+    }
+    density.whole = pick.mass();
+    return clamp(fma(density.fraction(pick.part()), width, t0), t0, t1);
   }
 
  private:
@@ -152,14 +163,6 @@ struct Pieces {
     Depths result;
     for (int k = 0; k < depths; ++k) result[k] = fma(part, end[i][k] - begin[i][k], begin[i][k]);
     return result;
-  }
-
-  template <class Pick>
-  F picked(const Pick& pick, const Depths& x) const noexcept {
-    if constexpr (depths == 1)
-      return x[0];
-    else
-      return pick.of(x);
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "math/exponential_sum.h"
 #include "shape.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
@@ -67,26 +68,50 @@ struct Section {
   /// the ray.
   Channels<F, channels> reaching(F length) const noexcept { return transmittance(length); }
 
-  /// A distance with density e^{−σ length} / T of the channel picked, lane by lane.
-  template <class Pick>
-  F draw(const Pick& pick) const noexcept {
+  /// What makes `draw` pick channel c with this chance.  [1/m]
+  Channels<F, channels> shares(const Channels<F, channels>& chance) const noexcept {
+    Channels<F, channels> result;
+    for (int c = 0; c < channels; ++c) {
+      const F total = trapezoids[c].total;
+      result[c] = select(total > F(0), chance[c] / max(total, F(1e-30f)), F(0));
+    }
+    return result;
+  }
+
+  /// A distance with density Σ_c share_c e^{depth_c − σ_c length}: its distribution function
+  /// inverted, monotone in u in [0, 1].
+  F draw(const Channels<F, channels>& share, F u) const noexcept {
     if constexpr (channels == 1) {
-      return trapezoids[0].sample(way, pick.u);
+      return trapezoids[0].sample(way, u);
     } else {
-      // The trapezoids of the channel drawn, put together lane by lane: one inversion instead of
-      // three.
-      Trapezoids<F, max_segments> drawn;
-      const auto of = [&](auto member) {
-        return pick.of({member(trapezoids[0]), member(trapezoids[1]), member(trapezoids[2])});
-      };
-      drawn.total = of([](const auto& t) { return t.total; });
-      for (int i = 0; i < 1 || i < way.segments; ++i) {  // one segment at least
-        using Inverse = typename Trapezoids<F, max_segments>::Inverse;
-        for (F Inverse::*number :
-             {&Inverse::begin, &Inverse::stretch, &Inverse::offset, &Inverse::rate})
-          drawn.inverse[i].*number = of([&](const auto& t) { return t.inverse[i].*number; });
+      PiecePick<F> pick(u);  // all segments hold 1 together
+      F t0 = way.t[0], t1 = way.t[1], from = way.length[0], to = way.length[1];
+      ExponentialSum<F, channels> density;
+      for (int c = 0; c < channels; ++c) {
+        density.begin[c] = trapezoids[c].transmittance[0];
+        density.end[c] = trapezoids[c].transmittance[1];
       }
-      return drawn.sample(way, pick.u);
+      for (int i = 0; i < max_segments && i < way.segments; ++i) {
+        F mass(0);
+        for (int c = 0; c < channels; ++c) mass = fma(share[c], trapezoids[c].integral[i], mass);
+        const Mask<F> reached = pick.reaches(mass);
+        if (i == 0) continue;
+        t0 = select(reached, way.t[i], t0), t1 = select(reached, way.t[i + 1], t1);
+        from = select(reached, way.length[i], from), to = select(reached, way.length[i + 1], to);
+        for (int c = 0; c < channels; ++c) {
+          const auto& transmittance = trapezoids[c].transmittance;
+          density.begin[c] = select(reached, transmittance[i], density.begin[c]);
+          density.end[c] = select(reached, transmittance[i + 1], density.end[c]);
+        }
+      }
+      const F width = t1 - t0;
+      for (int c = 0; c < channels; ++c) {
+        density.begin[c] = density.begin[c] * share[c] * width;
+        density.end[c] = density.end[c] * share[c] * width;
+        density.drop[c] = sigma_t[c] * (to - from);
+      }
+      density.whole = pick.mass();
+      return clamp(fma(density.fraction(pick.part()), width, t0), t0, t1);
     }
   }
 

@@ -86,10 +86,10 @@ struct Section<F, channels_, Space> {
     return camera;
   }
 
-  template <class Pick>
-  F draw(const Pick& pick) const noexcept {
-    return pieces.sample(pick);
+  Channels<F, channels> shares(const Channels<F, channels>& chance) const noexcept {
+    return pieces.shares(chance);
   }
+  F draw(const Channels<F, channels>& share, F u) const noexcept { return pieces.sample(share, u); }
   F density(const Point& at) const noexcept {
     const F total = pieces.total[0];
     return at.strength[0] * exp(min(pieces.depth[0] - at.depth[0], F(0))) /

@@ -91,6 +91,7 @@ struct Trapezoids {
   F integral[max_segments];  ///< of transmittance over a segment, relative to e^{−depth}  [m]
   F total = F(0);            ///< their sum, in [0, t_max]  [m]
   F depth = F(0);            ///< the smallest optical depth: the way is concave, so that of an end
+  F transmittance[max_segments + 1];  ///< at the nodes, relative to e^{−depth}
 
   /// The distribution function inverted within a segment, for x in [0, total]:
   ///
@@ -113,7 +114,6 @@ struct Trapezoids {
     const int n = way.segments;
     depth = sigma_t * min(way.length[0], way.length[n]);
     F depth_at[max_segments + 1];  // above `depth`
-    F transmittance[max_segments + 1];
     for (int i = 0; i <= n; ++i) {
       depth_at[i] = max(fma(sigma_t, way.length[i], -depth), F(0));
       transmittance[i] = exp(-depth_at[i]);

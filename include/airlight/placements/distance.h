@@ -26,7 +26,7 @@ struct Distance::On<Section<F, channels, Space>> {
   Channels<F, channels> depth;  ///< optical depth of the section
   Channels<F, channels> drop;   ///< 1 − e^{−depth}
   Channels<F, channels> norm;   ///< ∫ e^{−σ t} dt over the section  [m]
-  Channels<F, channels> chance;
+  Channels<F, channels> share;  ///< chance / norm  [1/m]
 
   On(const Section<F, channels, Space>& s, const Channels<F, channels>& strength) noexcept
       : section(s) {
@@ -37,20 +37,27 @@ struct Distance::On<Section<F, channels, Space>> {
       norm[c] = s.t_max * phi(depth[c]);
       carried[c] = strength[c] * norm[c];
     }
-    chance = chances<F, channels>(carried);
+    const Channels<F, channels> chance = chances<F, channels>(carried);
+    for (int c = 0; c < channels; ++c) share[c] = chance[c] / select(norm[c] > F(0), norm[c], F(1));
   }
 
   F sample(F u) const noexcept {
-    const ChannelPick<F, channels> pick(chance, u);
-    return section.t_max * exponential_fraction(pick.of(depth), pick.of(drop), pick.u);
+    if constexpr (channels == 1) {
+      return section.t_max * exponential_fraction(depth[0], drop[0], u);
+    } else {
+      ExponentialSum<F, channels> density;
+      density.drop = depth, density.whole = F(1);
+      for (int c = 0; c < channels; ++c) {
+        density.begin[c] = share[c] * section.t_max;
+        density.end[c] = density.begin[c] * (F(1) - drop[c]);
+      }
+      return section.t_max * density.fraction(u);
+    }
   }
 
   F pdf(F t, F /*length*/) const noexcept {
     F sum(0);
-    for (int c = 0; c < channels; ++c) {
-      const F density = exp(-section.sigma_t[c] * t) / select(norm[c] > F(0), norm[c], F(1));
-      sum = fma(chance[c], density, sum);
-    }
+    for (int c = 0; c < channels; ++c) sum = fma(share[c], exp(-section.sigma_t[c] * t), sum);
     return sum;
   }
 
@@ -69,26 +76,22 @@ struct Distance::On<Section<F, channels, Space>> {
   using In = Section<F, channels, Space>;
   const In& section;
   decltype(std::declval<const In&>().camera_way()) camera;
-  Channels<F, channels> chance;
+  Channels<F, channels> share;  ///< of the way's channels in what is drawn
 
   On(const In& s, const Channels<F, channels>& strength) noexcept
       : section(s), camera(s.camera_way()) {
     Channels<F, channels> carried = camera.whole();
     for (int c = 0; c < channels; ++c) carried[c] = carried[c] * strength[c];
-    chance = chances<F, channels>(carried);
+    share = camera.shares(chances<F, channels>(carried));
   }
 
-  F sample(F u) const noexcept { return camera.sample(ChannelPick<F, channels>(chance, u)); }
+  F sample(F u) const noexcept { return camera.sample(share, u); }
 
   F pdf(F t, const typename In::Point&) const noexcept {
     const auto at = camera.at(t);
     F sum(0);
-    for (int c = 0; c < channels; ++c) {
-      const Mask<F> some = camera.total[c] > F(0);
-      const F density = at.strength[c] * exp(min(camera.depth[c] - at.depth[c], F(0))) /
-                        select(some, camera.total[c], F(1));
-      sum = fma(chance[c], select(some, density, F(0)), sum);
-    }
+    for (int c = 0; c < channels; ++c)
+      sum = fma(share[c] * at.strength[c], exp(min(camera.depth[c] - at.depth[c], F(0))), sum);
     return sum;
   }
 

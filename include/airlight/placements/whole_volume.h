@@ -24,7 +24,7 @@ template <Real F, int channels, class Space>
 struct WholeVolume::On<Section<F, channels, Space>> {
   using Point = typename Section<F, channels, Space>::Point;
   const Section<F, channels, Space>& section;
-  Channels<F, channels> chance;
+  Channels<F, channels> share;  ///< of the section's channels in what is drawn
   Channels<F, channels>
       scale;  ///< chance / T: the mixture's density is Σ_c scale_c e^{−σ_c length}  [1/m]
 
@@ -32,14 +32,15 @@ struct WholeVolume::On<Section<F, channels, Space>> {
       : section(s) {
     Channels<F, channels> carried;
     for (int c = 0; c < channels; ++c) carried[c] = strength[c] * s.integral[c];
-    chance = chances<F, channels>(carried);
+    const Channels<F, channels> chance = chances<F, channels>(carried);
+    share = s.shares(chance);
     for (int c = 0; c < channels; ++c) {
       const Mask<F> some = s.integral[c] > F(0);
       scale[c] = select(some, chance[c] / select(some, s.integral[c], F(1)), F(0));
     }
   }
 
-  F sample(F u) const noexcept { return section.draw(ChannelPick<F, channels>(chance, u)); }
+  F sample(F u) const noexcept { return section.draw(share, u); }
 
   F pdf(F, const Point& at) const noexcept {
     if constexpr (channels == 1)

@@ -31,9 +31,10 @@ void rgb(Reproduced& out) {
   out.page.paragraph(
       "The paper's media are grey, and in these whole-volume samples have equal weights: Monte "
       "Carlo and ratio form are the same. Where channels are extinguished differently, one set of "
-      "samples can't follow all of them. Each sample is drawn from one channel's distribution and "
-      "weighted by the balance heuristic over all three; the weights vary along the ray, and the "
-      "Monte Carlo form `mcwvds` is noisy even where nothing is shadowed. The ratio form `rewv` "
+      "samples can't follow all of them. Samples are drawn from the mean of the channels' "
+      "distributions, inverted as a whole so that strata stay strata, and weighted by the balance "
+      "heuristic; the weights vary along the ray, and the Monte Carlo form `mcwvds` is noisy even "
+      "where nothing is shadowed. The ratio form `rewv` "
       "divides by the sum of the same weights: it is exact wherever the light is the same along "
       "the ray, with the same samples.");
   out.page.checks(out.rows,
