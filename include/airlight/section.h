@@ -27,7 +27,7 @@ struct Section {
   F t_max;                        ///< the length of the section, >= 0  [m]
   Channels<F, channels> sigma_t;  ///< [1/m]
   WayOut<F, max_segments> way;
-  Channels<Trapezoids<F, max_segments>, channels> trapezoids;
+  Channels<Trapezoids<F, max_segments, channels == 1>, channels> trapezoids;
   Channels<F, channels> integral;  ///< T, of transmittance along the whole section  [m]
 
   Section(const Space& space_, const LocalRay<F>& ray_, Vec3<F> w_, F t_max_,
@@ -123,7 +123,7 @@ struct Section {
     const auto part = way.clipped(from, to);
     Channels<F, channels> result;
     for (int c = 0; c < channels; ++c)
-      result[c] = Trapezoids<F, max_segments>(part, sigma_t[c]).transmittance_integral();
+      result[c] = Trapezoids<F, max_segments, false>(part, sigma_t[c]).transmittance_integral();
     return result;
   }
 };

@@ -85,8 +85,8 @@ struct WayOut {
 ///     T = ∫ e^{−σ (t + d(t))} dt = e^{−depth} · total    [m]
 ///
 /// Depths are kept relative to the smallest, so that `total` and what is drawn from it never
-/// underflow.
-template <Real F, int max_segments>
+/// underflow. Only those of one channel are `invertible`; several are drawn from together.
+template <Real F, int max_segments, bool invertible = true>
 struct Trapezoids {
   F integral[max_segments];  ///< of transmittance over a segment, relative to e^{−depth}  [m]
   F total = F(0);            ///< their sum, in [0, t_max]  [m]
@@ -103,7 +103,7 @@ struct Trapezoids {
     F stretch;  ///< the segment's length over its depth, negative from its last point back  [m]
     F offset, rate;
   };
-  Inverse inverse[max_segments];
+  Inverse inverse[invertible ? max_segments : 1];
 
   Trapezoids() = default;
 
@@ -127,6 +127,10 @@ struct Trapezoids {
       const F phi = phi_below_one(min(y, F(1))), inverse_y = F(1) / y;
       const F width = way.t[i + 1] - way.t[i];
       integral[i] = width * select(shallow, high * phi, (high - low) * inverse_y);
+      if constexpr (!invertible) {
+        total = total + integral[i];
+        continue;
+      }
       const Mask<F> empty = !(integral[i] > F(0));
       const Mask<F> rising = depth_at[i + 1] >= depth_at[i];
       const F rate = y / select(empty, F(1), width * high);

@@ -26,30 +26,26 @@ struct ExponentialSum {
     const F tolerance = F(precise ? 2e-6 : 1e-3) * whole,
             rounding = F(precise ? 1e-15 : 5e-7) * whole;
     const F least(1e-30f);
-    std::array<F, n> steepness, inverse;
-    for (std::size_t c = 0; c < n; ++c) {
-      steepness[c] = max(abs(drop[c]), F(1e-15f));  // next to even is as good as even
-      inverse[c] = F(1) / steepness[c];
-    }
     const F wanted = part * whole;
     F g = guess(part);
     for (int step = 0; step < 8; ++step) {
       F missing = wanted, here(0), falling(0);
       for (std::size_t c = 0; c < n; ++c) {
         const Mask<F> falls = drop[c] >= F(0);
-        const F y = steepness[c] * g;
-        const F density = max(begin[c], end[c]) * exp(-select(falls, y, steepness[c] - y));
-        const F high = select(falls, begin[c], density);
-        const F held =
-            select(y < F(1), high * y * phi_below_one(min(y, F(1))), abs(begin[c] - density));
-        missing = fma(-inverse[c], held, missing);
+        const F steepness = abs(drop[c]), y = steepness * g;
+        const F density = max(begin[c], end[c]) * exp(-select(falls, y, steepness - y));
+        F mean = select(falls, begin[c], density) * phi_below_one(min(y, F(1)));
+        if (const Mask<F> deep = y > F(1); any(deep))
+          mean = select(deep, abs(begin[c] - density) / max(y, F(1)), mean);
+        missing = fma(-g, mean, missing);
         here = here + density;
         falling = fma(drop[c], density, falling);
       }
       // A step of missing / here, bent by −log(1 − z) / z with z = missing · falling / here²: its
       // first terms in one quotient.
-      const F straight = select(abs(missing) > rounding, missing, F(0)) / max(here, least);
-      const F z = min(straight * falling / max(here, least), F(1));
+      const F per_density = F(1) / max(here, least);
+      const F straight = select(abs(missing) > rounding, missing, F(0)) * per_density;
+      const F z = min(straight * falling * per_density, F(1));
       g = clamp(fma(straight, (F(6) - z) / (F(6) - F(4) * z), g), F(0), F(1));
       if (!any(abs(missing) > tolerance)) break;
     }
