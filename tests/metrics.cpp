@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "error.h"
+#include "study/comparison.h"
 
 using namespace airlight;
 
@@ -72,4 +73,17 @@ TEST(Metrics, stand_in_the_list_once_each) {
 TEST(DifferenceImage, is_absolute_and_scaled) {
   EXPECT_EQ(difference_image(image, reference, 2).pixels,
             (std::vector<float>{1, 0, 0.5F, 0, 0, 2}));
+}
+
+TEST(Difference, of_two_estimators_is_that_of_each_seed) {
+  const auto measured = [](std::vector<double> psnr) {
+    Measured row{};
+    for (const double value : psnr) row.of_seeds.push_back({.psnr = value});
+    return row;
+  };
+  const Spread lead = difference(measured({30, 20, 10}), measured({29, 18, 7}), &Metrics::psnr);
+  EXPECT_EQ(lead.count, 3u);
+  EXPECT_DOUBLE_EQ(lead.mean, 2);
+  EXPECT_DOUBLE_EQ(lead.standard_deviation, 1);
+  EXPECT_THROW(difference(measured({30, 20}), measured({29}), &Metrics::psnr), Error);
 }

@@ -113,33 +113,53 @@ std::int64_t samples_in(double seconds, Renderer& renderer, RenderSettings setti
   }
 }
 
+/// A metric of each seed.
+std::vector<double> values_of(const Measured& row, double Metrics::*metric) {
+  std::vector<double> values;
+  for (const Metrics& metrics : row.of_seeds) values.push_back(metrics.*metric);
+  return values;
+}
+
 Measured measure(Renderer& renderer, RenderSettings settings, int seeds, const Image& reference,
                  Comparison& comparison) {
   Measured row{.estimator = settings.estimator,
                .spp = settings.spp,
                .seconds = {},
                .metrics = {},
+               .of_seeds = {},
                .picture = {}};
   std::vector<double> seconds;
-  std::array<std::vector<double>, metric_list.size()> values;
   const std::int64_t first_seed = settings.seed;
   for (int i = 0; i < seeds; ++i) {
     settings.seed = first_seed + i;
     const Rendered rendered = whole(renderer.render(settings), settings);
     comparison.instruction_set = rendered.instruction_set;
     Image picture = rendered.film.layer("beauty");
-    const Metrics metrics = compare(picture, reference);
+    row.of_seeds.push_back(compare(picture, reference));
     seconds.push_back(rendered.seconds);
-    for (std::size_t m = 0; m < metric_list.size(); ++m)
-      values[m].push_back(metrics.*metric_list[m].value);
     if (i == 0) row.picture = std::move(picture);
   }
   row.seconds = spread(seconds);
-  for (std::size_t m = 0; m < metric_list.size(); ++m) row.metrics[m] = spread(values[m]);
+  for (std::size_t m = 0; m < metric_list.size(); ++m)
+    row.metrics[m] = spread(values_of(row, metric_list[m].value));
   return row;
 }
 
 }  // namespace
+
+Spread difference(const Measured& one, const Measured& other, double Metrics::*metric) {
+  if (one.of_seeds.size() != other.of_seeds.size())
+    throw Error(fmt::format("{} has {} seeds and {} has {}; accepted: equally many", one.estimator,
+                            one.of_seeds.size(), other.estimator, other.of_seeds.size()));
+  std::vector<double> values = values_of(one, metric);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= other.of_seeds[i].*metric;
+  return spread(values);
+}
+
+const Measured& Comparison::of(const std::string& estimator, std::int64_t spp) const {
+  return *std::ranges::find_if(
+      rows, [&](const Measured& m) { return m.estimator == estimator && m.spp == spp; });
+}
 
 std::string warning_of(const Comparison& comparison) {
   std::string rows;

@@ -30,10 +30,15 @@ struct Measured {
   std::int64_t spp = 0;
   Spread seconds;                                  ///< without loading  [s]
   std::array<Spread, metric_list.size()> metrics;  ///< in the order of `metric_list`
+  std::vector<Metrics> of_seeds;                   ///< of each seed, from the first on
   Image picture;                                   ///< of the first seed
 
   const Spread& of(double Metrics::*metric) const { return metrics[index_of(metric)]; }
 };
+
+/// How far one is above the other, each seed's picture against the other's of that seed: what both
+/// draw alike cancels. Throws Error if one has more seeds.
+Spread difference(const Measured& one, const Measured& other, double Metrics::*metric);
 
 struct Comparison {
   Image reference;
@@ -41,6 +46,9 @@ struct Comparison {
   double reference_error = 0;    ///< its own RMSE, as far as it is known  [W/(m2 sr)]
   std::vector<Measured> rows;    ///< by estimator, then by spp
   const char* instruction_set = "";
+
+  /// The row of an estimator at a count, which must be there.
+  const Measured& of(const std::string& estimator, std::int64_t spp) const;
 };
 
 /// The rows that the reference cannot judge, since its own error is more than half of theirs; empty

@@ -32,11 +32,12 @@ Scene black_ball(const Configuration& configuration) {
   return scene;
 }
 
-Scene black_ball_many_times() {
-  Scene scene = black_ball(configurations[0]);
+Scene black_ball_many_times(const Configuration& configuration) {
+  Scene scene = black_ball(configuration);
   scene.resolution = {48, 48};
-  scene.media[0].sigma_s = scene.media[0].sigma_t * 0.86;
-  std::get<Directional>(scene.lights[0]).irradiance = Rgb<double>(14.52);
+  scene.media[0].sigma_s = scene.media[0].sigma_t * configuration.many_times.albedo;
+  std::get<Directional>(scene.lights[0]).irradiance =
+      Rgb<double>(configuration.many_times.irradiance);
   scene.render.max_depth = 12;
   scene.render.continuation = Continuation::sample;
   return scene;

@@ -26,9 +26,7 @@ struct Picking {
   Comparison comparison = {};
 
   const Measured& of(const std::string& estimator, std::int64_t samples) const {
-    return *std::ranges::find_if(comparison.rows, [&](const Measured& m) {
-      return m.estimator == estimator && m.spp == samples;
-    });
+    return comparison.of(estimator, samples);
   }
 };
 

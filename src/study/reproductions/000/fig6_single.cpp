@@ -3,6 +3,7 @@
 #include "study/comparison.h"
 #include "study/reproduction.h"
 #include "study/reproductions/000/black_ball.h"
+#include "study/reproductions/000/black_ball_pictures.h"
 
 namespace airlight::paper_000 {
 namespace {
@@ -58,7 +59,6 @@ void fig6_single(Reproduced& out) {
                   seeds, tolerance));
   for (std::size_t c = 0; c < comparisons.size(); ++c) {
     const Configuration& at = configurations[c];
-    const Comparison& comparison = comparisons[c];
     out.page.heading(fmt::format("Configuration {}", at.name));
     out.page.paragraph(fmt::format(
         "σ_{{t}} = {} /m, a black ball of radius {} m in the middle of a cube of fog 2 m wide, "
@@ -66,23 +66,7 @@ void fig6_single(Reproduced& out) {
         "{} /m × ∫ V e^{{−τ}} dt.",
         at.sigma_t, ball_radius, at.toward.x, at.toward.y, at.toward.z, at.eye.x, at.eye.y,
         at.eye.z, at.fov, at.strength));
-    const auto picture = [&](const std::string& name, const Image& image,
-                             const std::string& caption) {
-      return out.picture(fmt::format("{}_{}", at.name, name), image, caption);
-    };
-    std::vector<Figure> pictures;
-    for (const Measured& m : comparison.rows)
-      pictures.push_back(picture(
-          m.estimator, m.picture,
-          fmt::format("{}, {:.2f} dB", upper_case(m.estimator), m.of(&Metrics::psnr).mean)));
-    for (const Measured& m : comparison.rows)
-      pictures.push_back(picture(m.estimator + "_difference",
-                                 difference_image(m.picture, comparison.reference, 4),
-                                 "4 × |difference|"));
-    pictures.push_back(picture("exact", comparison.reference, "exact"));
-    out.page.figures(pictures, 5,
-                     "The first seed of each estimator, and its distance from the "
-                     "exact picture.");
+    show_pictures(out, at, comparisons[c], "exact");
   }
 }
 

@@ -30,11 +30,6 @@ constexpr Expected expected[] = {
     {256, {70.6, 69.4, 69.6, 70.8, 71.2}, {70.7, 69.8, 70.0, 69.6, 70.6}},
 };
 
-const Measured& find(const Comparison& comparison, const std::string& estimator, int spp) {
-  return *std::ranges::find_if(
-      comparison.rows, [&](const Measured& m) { return m.estimator == estimator && m.spp == spp; });
-}
-
 /// PSNR at N samples of an estimator whose MSE · N² has come down to its limit.
 double limit(double mse_times_squared_count, double n) {
   return -10 * std::log10(mse_times_squared_count / (n * n));
@@ -92,7 +87,7 @@ void fig7_single(Reproduced& out) {
         out.rows.push_back({fmt::format("{}, {} spp, {}: PSNR [dB]", configuration.name, e.spp,
                                         upper_case(five_estimators[i])),
                             {},
-                            find(comparison, five_estimators[i], e.spp).of(&Metrics::psnr).mean,
+                            comparison.of(five_estimators[i], e.spp).of(&Metrics::psnr).mean,
                             value - tolerance,
                             value + tolerance});
       }
@@ -101,7 +96,7 @@ void fig7_single(Reproduced& out) {
       out.rows.push_back({fmt::format("{}, 256 spp, {}: PSNR − limit [dB]", configuration.name,
                                       upper_case(estimator)),
                           {},
-                          find(comparison, estimator, 256).of(&Metrics::psnr).mean -
+                          comparison.of(estimator, 256).of(&Metrics::psnr).mean -
                               limit(mse_times_squared_count, 256),
                           -limit_tolerance,
                           limit_tolerance});
