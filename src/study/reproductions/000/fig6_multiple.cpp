@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/text.h"
 #include "study/comparison.h"
 #include "study/reproduction.h"
 #include "study/reproductions/000/black_ball.h"
@@ -93,18 +94,19 @@ void fig6_multiple(Reproduced& out) {
   out.page.paragraph(fmt::format(
       "The paper's first three numbers are reached with both. B shows the published order; A, "
       "which comes closer to the numbers of single scattering, shows it but for the first two, "
-      "which are level: MCWVDS is {:+.3f} ± {:.3f} dB ahead of REDS in A and {:+.3f} ± {:.3f} dB "
-      "in B. So which of the two leads is a matter of the scene. The paper prints 0.01 dB between "
-      "them, and from seed to seed the difference scatters by {:.2f} dB. The paper's spread of RM "
-      "and REES is reached by neither: they lie farther behind than published. Going on from "
-      "equidistant samples gives paths weights that vary, of which the paper says nothing.",
-      leads[0].mean, leads[0].standard_error, leads[1].mean, leads[1].standard_error,
-      leads[0].standard_deviation));
+      "which are level: MCWVDS is ahead of REDS by {} dB in A and by {} dB in B. So which of the "
+      "two leads is a matter of the scene. The paper prints 0.01 dB between them, and from seed to "
+      "seed the difference scatters by {:.2f} dB. The paper's spread of RM and REES is reached by "
+      "neither: they lie farther behind than published. Going on from equidistant samples gives "
+      "paths weights that vary, of which the paper says nothing.",
+      number(leads[0].mean, leads[0].standard_error, 3),
+      number(leads[1].mean, leads[1].standard_error, 3), leads[0].standard_deviation));
   out.page.paragraph(
-      "An earlier implementation measured 25.90 and 25.88 dB for the first two with A. It drew the "
-      "directions of scattering independently, where Airlight stratifies them over the paths of a "
-      "pixel. Drawn independently, and without roulette, they stand at 25.93 dB here, 0.000 ± "
-      "0.003 dB apart over 1024 seeds; the strata gain both a third of a decibel.");
+      "An earlier implementation, not part of this project, measured 25.90 and 25.88 dB for the "
+      "first two with A. That is what independent directions of scattering give, but for noise: "
+      "with them, and without roulette, both stand at 25.92 dB here, 0.002 ± 0.003 dB apart over "
+      "1024 seeds. Airlight stratifies the directions over the paths of a pixel, which gains both "
+      "a third of a decibel.");
   out.page.checks(
       out.rows,
       fmt::format("Mean PSNR over {} seeds at {} spp, peak 1. The ranges are ±{} dB about what "

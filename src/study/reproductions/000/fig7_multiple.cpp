@@ -91,8 +91,8 @@ void fig7_multiple(Reproduced& out) {
       "doubling, not by 6 as in 000/fig7-single. As the paper says, MCWVDS and REDS lead at equal "
       "samples, the ratio form helps both marches and distance samples, and distance samples keep "
       "their advantage over ray marching. MCWVDS converges fastest in B; in A it is level with "
-      "REDS up to 16 spp and leads by a few hundredths of a decibel after. That REES leads as well "
-      "is reached with neither: it gains on RM, but stays behind MCDS.");
+      "REDS from 4 to 16 spp and leads by hundredths of a decibel elsewhere. That REES leads as "
+      "well is reached with neither: it gains on RM, but stays behind MCDS.");
   out.page.figures(figures, 2, fmt::format("Mean PSNR over {} seeds, peak 1.", seeds));
   out.page.checks(
       out.rows,
