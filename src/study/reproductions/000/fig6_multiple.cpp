@@ -95,10 +95,11 @@ void fig6_multiple(Reproduced& out) {
       "The paper's first three numbers are reached with both. B shows the published order; A, "
       "which comes closer to the numbers of single scattering, shows it but for the first two, "
       "which are level: MCWVDS is ahead of REDS by {} dB in A and by {} dB in B. So which of the "
-      "two leads is a matter of the scene. The paper prints 0.01 dB between them, and from seed to "
-      "seed the difference scatters by {:.2f} dB. The paper's spread of RM and REES is reached by "
-      "neither: they lie farther behind than published. Going on from equidistant samples gives "
-      "paths weights that vary, of which the paper says nothing.",
+      "two leads is a matter of the scene; B was taken in after A had been measured. The paper "
+      "prints 0.01 dB between them, and from seed to seed the difference scatters by {:.2f} dB. "
+      "The paper's spread of RM and REES is reached by neither: they lie farther behind than "
+      "published. Going on from equidistant samples gives paths weights that vary, of which the "
+      "paper says nothing.",
       number(leads[0].mean, leads[0].standard_error, 3),
       number(leads[1].mean, leads[1].standard_error, 3), leads[0].standard_deviation));
   out.page.paragraph(
