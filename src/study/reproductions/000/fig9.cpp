@@ -28,7 +28,7 @@ void fig9(Reproduced& out) {
     out.page.paragraph(
         "The first view below was chosen after seeing numbers, as one where whole-volume samples "
         "gain; what the paper prints is claimed for it alone. The second is the sunroom as its "
-        "scene file has it: there RM is ahead by several decibels, and nothing else is claimed.");
+        "scene file has it: there RM is ahead, and nothing else is claimed.");
   const auto show = [&](const View& view) {
     return march_against_whole_volume(out, view, spp, seeds, reference_spp);
   };

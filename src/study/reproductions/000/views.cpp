@@ -9,11 +9,32 @@
 
 namespace airlight::paper_000 {
 
+namespace {
+
+bool is_coloured(const Rgb<double>& c) { return c.r != c.g || c.g != c.b; }
+
+/// The mean of the channels in each.
+Rgb<double> grey(const Rgb<double>& c) { return Rgb<double>((c.r + c.g + c.b) / 3); }
+
+}  // namespace
+
 View view(std::string name, std::string stem, std::string about, Scene scene, int width) {
+  bool had_disc = false, had_colours = false;
   const Resolution was = scene.resolution;
   scene.resolution = {width, std::max(1, int(std::lround(double(width) * was.height / was.width)))};
   for (Lights& light : scene.lights)
-    if (auto* sun = std::get_if<Directional>(&light)) sun->angular_diameter = 0;
+    if (auto* sun = std::get_if<Directional>(&light)) {
+      had_disc |= sun->angular_diameter > 0;
+      sun->angular_diameter = 0;
+    }
+  for (Medium& medium : scene.media)
+    for (Rgb<double>* coefficient : {&medium.sigma_s, &medium.sigma_t}) {
+      had_colours |= is_coloured(*coefficient);
+      *coefficient = grey(*coefficient);
+    }
+  if (had_disc || had_colours)
+    about += fmt::format(" As in the paper, {}{}{} here.", had_disc ? "sunlight is parallel" : "",
+                         had_disc && had_colours ? " and " : "", had_colours ? "fog is grey" : "");
   scene.background_image = {};  // would have to be of the picture's size
   scene.render.samples_per_ray = 0;
   scene.render.first_sample.reset();

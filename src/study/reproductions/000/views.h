@@ -7,8 +7,8 @@
 
 namespace airlight::paper_000 {
 
-/// A scene seen from one place, in the setting of the paper: parallel light, and all samples of a
-/// pixel on the ray through its centre.
+/// A scene seen from one place, in the setting of the paper: parallel light, grey fog, and all
+/// samples of a pixel on the ray through its centre.
 struct View {
   std::string name;   ///< in words
   std::string stem;   ///< of its pictures' names
