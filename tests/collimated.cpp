@@ -8,6 +8,7 @@
 #include "support/quadrature.h"
 #include "support/rays_in_a_box.h"
 #include "support/stats.h"
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -209,8 +210,7 @@ double found_integral(const Case& c) {
 
 template <class F>
 class Beams : public testing::Test {};
-using Arithmetics = testing::Types<double, float, FloatBatch>;
-TYPED_TEST_SUITE(Beams, Arithmetics);
+TYPED_TEST_SUITE(Beams, test::Arithmetics, test::ArithmeticName);
 
 TYPED_TEST(Beams, integrate_to_what_quadrature_says) {
   using F = TypeParam;

@@ -9,6 +9,7 @@
 
 #include "report/statistics.h"
 #include "support/rays_in_a_box.h"
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -19,14 +20,7 @@ using test::Worst;
 
 template <class F>
 class EveryArithmetic : public ::testing::Test {};
-struct Name {
-  template <class F>
-  static std::string GetName(int) {
-    return std::same_as<F, double> ? "double" : std::same_as<F, float> ? "float" : "FloatBatch";
-  }
-};
-using Arithmetics = ::testing::Types<double, float, FloatBatch>;
-TYPED_TEST_SUITE(EveryArithmetic, Arithmetics, Name);
+TYPED_TEST_SUITE(EveryArithmetic, test::Arithmetics, test::ArithmeticName);
 
 std::vector<Vec3<double>> axes() {
   std::vector<Vec3<double>> all = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}};

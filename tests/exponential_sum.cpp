@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -93,14 +94,7 @@ std::vector<Sum> all_sums() {
 
 template <class F>
 class ExponentialSums : public ::testing::Test {};
-struct Name {
-  template <class F>
-  static std::string GetName(int) {
-    return std::same_as<F, double> ? "double" : std::same_as<F, float> ? "float" : "FloatBatch";
-  }
-};
-using Arithmetics = ::testing::Types<double, float, FloatBatch>;
-TYPED_TEST_SUITE(ExponentialSums, Arithmetics, Name);
+TYPED_TEST_SUITE(ExponentialSums, test::Arithmetics, test::ArithmeticName);
 
 TYPED_TEST(ExponentialSums, hold_the_part_below_that_was_asked_for) {
   using F = TypeParam;

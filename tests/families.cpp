@@ -151,7 +151,7 @@ TEST(Families, stand_in_a_test) {
     if (entry.path().extension() == ".cpp" && entry.path().filename() != "families.cpp")
       tests += text_of(entry.path());
   const Names walked = {"phases", "placements", "forms"};
-  for (const char* list : {"TypesOf<Phases>", "TypesOf<Placements>", "TypesOf<Forms>"})
+  for (const char* list : {"MembersOf<Phases>", "MembersOf<Placements>", "MembersOf<Forms>"})
     EXPECT_THAT(tests, HasSubstr(list)) << "a newcomer is tested by being on its list";
 
   for_each_family([&](const std::string& folder, const Names&) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/stats.h"
+#include "support/typed.h"
 
 namespace airlight {
 namespace {
@@ -18,19 +19,7 @@ using Colour = Rgb<double>;
 template <class M>
 class EveryForm : public ::testing::Test {};
 
-template <class Variant>
-struct TypesOf;
-template <class... M>
-struct TypesOf<std::variant<M...>> {
-  using Types = ::testing::Types<M...>;
-};
-struct Name {
-  template <class M>
-  static std::string GetName(int) {
-    return M::name;
-  }
-};
-TYPED_TEST_SUITE(EveryForm, TypesOf<Forms>::Types, Name);
+TYPED_TEST_SUITE(EveryForm, test::MembersOf<Forms>::Types, test::MemberName);
 
 void expect_near(const Colour& found, const Colour& wanted) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 1e-15 * (1 + wanted[c])) << c;

@@ -8,6 +8,7 @@
 
 #include "support/quadrature.h"
 #include "support/stats.h"
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -60,22 +61,7 @@ double distribution(const P& phase, double c) {
 template <class P>
 class EveryPhase : public ::testing::Test {};
 
-template <class Variant>
-struct TypesOf;
-template <class... P>
-struct TypesOf<std::variant<P...>> {
-  using Types = ::testing::Types<P...>;
-};
-struct Name {
-  template <class P>
-  static std::string GetName(int) {
-    std::string name = P::name;
-    for (char& c : name)
-      if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-    return name;
-  }
-};
-TYPED_TEST_SUITE(EveryPhase, TypesOf<Phases>::Types, Name);
+TYPED_TEST_SUITE(EveryPhase, test::MembersOf<Phases>::Types, test::MemberName);
 
 TYPED_TEST(EveryPhase, is_a_density_over_the_sphere) {
   for (const TypeParam& phase : corners_of<TypeParam>())

@@ -9,6 +9,7 @@
 #include "support/exact_way.h"
 #include "support/rays_in_a_box.h"
 #include "support/stats.h"
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -131,19 +132,7 @@ void everywhere(int n, unsigned seed, double thickest, Check&& check) {
 template <class P>
 class EveryPlacement : public ::testing::Test {};
 
-template <class Variant>
-struct TypesOf;
-template <class... P>
-struct TypesOf<std::variant<P...>> {
-  using Types = ::testing::Types<P...>;
-};
-struct Name {
-  template <class P>
-  static std::string GetName(int) {
-    return P::name;
-  }
-};
-TYPED_TEST_SUITE(EveryPlacement, TypesOf<Placements>::Types, Name);
+TYPED_TEST_SUITE(EveryPlacement, test::MembersOf<Placements>::Types, test::MemberName);
 
 TYPED_TEST(EveryPlacement, has_a_density) {
   Worst worst("integral of the density, off one by");

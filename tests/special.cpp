@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "airlight/math/sort.h"
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -27,14 +28,7 @@ Exact exact_fraction(Exact y, Exact v) {
 
 template <class F>
 class EveryArithmetic : public ::testing::Test {};
-struct Name {
-  template <class F>
-  static std::string GetName(int) {
-    return std::same_as<F, double> ? "double" : std::same_as<F, float> ? "float" : "FloatBatch";
-  }
-};
-using Arithmetics = ::testing::Types<double, float, FloatBatch>;
-TYPED_TEST_SUITE(EveryArithmetic, Arithmetics, Name);
+TYPED_TEST_SUITE(EveryArithmetic, test::Arithmetics, test::ArithmeticName);
 
 /// How many units of 1e-16 or 1e-7 a bound may be.
 template <Real F>

@@ -12,6 +12,7 @@
 #include "support/exact_way.h"
 #include "support/quadrature.h"
 #include "support/rays_in_a_box.h"
+#include "support/typed.h"
 #include "support/worst.h"
 
 namespace airlight {
@@ -605,14 +606,7 @@ TEST(Unbounded, lets_no_light_in_from_far_away) {
 
 template <class F>
 class EveryArithmetic : public ::testing::Test {};
-struct Name {
-  template <class F>
-  static std::string GetName(int) {
-    return std::same_as<F, double> ? "double" : std::same_as<F, float> ? "float" : "FloatBatch";
-  }
-};
-using Arithmetics = ::testing::Types<double, float, FloatBatch>;
-TYPED_TEST_SUITE(EveryArithmetic, Arithmetics, Name);
+TYPED_TEST_SUITE(EveryArithmetic, test::Arithmetics, test::ArithmeticName);
 
 /// A number of any kind that a coordinate may take, down to those that flush to zero.
 double odd_number(Random& random) {
