@@ -50,10 +50,10 @@ View from_the_dark(int width) {
 
 View in_the_light(int width) {
   return view("The sunroom in thicker fog, beside the windows", "light",
-              "`scenes/sunroom.toml` with σ_{s} = 0.4 /m, from (6.6, 2.2, 7.6) m towards "
+              "`scenes/sunroom.toml` with σ_{s} = 0.5 /m, from (6.6, 2.2, 7.6) m towards "
               "(1.5, 0.8, 3): the camera stands in the light, and what is lit is near.",
               parse_scene(sunroom_toml, "scenes/sunroom.toml",
-                          {"media.0.sigma_s=0.4", "camera.position=[6.6, 2.2, 7.6]",
+                          {"media.0.sigma_s=0.5", "camera.position=[6.6, 2.2, 7.6]",
                            "camera.target=[1.5, 0.8, 3]"}),
               width);
 }
