@@ -394,6 +394,22 @@ TEST(ClosedMesh, is_refused_where_it_crosses_itself) {
                                     "and corners only"));
 }
 
+TEST(ClosedMesh, is_refused_where_shells_overlap_without_an_edge_through_a_triangle) {
+  const TestMesh one = test::box_mesh({-1, -1, -1}, {1, 1, 1});
+  const auto with = [&](Vec3<double> low, Vec3<double> high) {
+    const TestMesh other = test::box_mesh(low, high);
+    const std::string told = refusal(one + other);
+    EXPECT_EQ(refusal(other + one).substr(0, 7), told.substr(0, 7));
+    return told.substr(0, 7);
+  };
+  EXPECT_EQ(with({0, -1, -1}, {2, 1, 1}), "crosses");               // face on face
+  EXPECT_EQ(with({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}), "crosses");  // edges through diagonals
+  EXPECT_EQ(with({-0.5, -1, -0.5}, {0.5, 2, 0.5}), "crosses");      // out of a face it stands on
+  EXPECT_EQ(with({1, -0.5, -0.5}, {2, 0.5, 0.5}), "accepte");       // beside it
+  EXPECT_EQ(with({-0.5, 1, -1}, {0.5, 2, 0}), "accepte");           // on it, flush with a side
+  EXPECT_EQ(with({1, 1, 1}, {2, 2, 2}), "accepte");                 // at a corner
+}
+
 TEST(ClosedMesh, is_refused_where_a_plane_may_cut_too_much_of_it) {
   EXPECT_EQ(refusal(test::torus(48, 24)), "accepted");  // 2304 triangles
   EXPECT_THAT(refusal(test::torus(400, 40)),
