@@ -140,6 +140,24 @@ TEST(Checkpoint, holds_a_film_bit_for_bit) {
   EXPECT_THAT(folder.names(), ElementsAre("a.ckpt"));
 }
 
+TEST(Checkpoint, is_written_again_and_again_while_a_pass_goes_on) {
+  const Folder folder;
+  const std::string file = folder / "a.ckpt";
+  const Scene scene = scene_with({"render.spp=64", "render.threads=2", "render.max_depth=4",
+                                  "image.width=212", "image.height=148"});
+  int written = 0;
+  std::filesystem::file_time_type last{};
+  RenderControl control;
+  control.checkpoint = {.file = file, .every = 0.01, .on_failure = {}};
+  control.on_progress = [&](const Progress& progress) {
+    std::error_code none_yet;
+    const auto time = std::filesystem::last_write_time(file, none_yet);
+    if (progress.fraction < 1 && !none_yet && time != last) ++written, last = time;
+  };
+  EXPECT_TRUE(Renderer(scene).render(scene.render, control).complete);
+  EXPECT_GE(written, 6);  // 15; 1 to 3 where writing follows a worker from tile to tile
+}
+
 TEST(Resume, of_a_render_stopped_anywhere_gives_what_it_would_have_been) {
   for (const char* estimator : {"rewv", "mcds"}) {
     const Folder folder;

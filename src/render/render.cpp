@@ -151,8 +151,11 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
   while (run.least() < prepared.samples.count) {
     const std::uint32_t pass_end =
         run.least() + next_pass(prepared.samples.count, run.least(), control);
+    // From the last tile to the first: a checkpoint is written the other way and waits for a tile
+    // that is being rendered. It meets each worker once, and does not follow one from tile to tile.
     arena.execute([&] {
-      tbb::parallel_for(0, film.tile_count(), [&](int tile) { render_tile(tile, pass_end); });
+      const int last = film.tile_count() - 1;
+      tbb::parallel_for(0, last + 1, [&](int i) { render_tile(last - i, pass_end); });
     });
     if (stopped) break;
     progress.samples_done = run.least();
