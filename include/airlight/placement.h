@@ -29,7 +29,7 @@ Channels<F, channels> balanced_weights(const Channels<F, channels>& reaching, F 
 /// Where samples go along a ray: the pair of a sample and its density.
 ///
 ///     placed = placement.on(section, strength)   strength: what a metre scatters, by channel
-///     placed.sample(u)           t in [0, t_max], monotone in u  [m]
+///     placed.sample(u)           t in [0, t_max], monotone in u (in each part of a mix)  [m]
 ///     placed.pdf(t, at)          its density; at = section.at(t)  [1/m]
 ///     placed.weights(t, at)      section.reaching(at) / pdf for each channel  [m]
 template <class P>
