@@ -25,6 +25,7 @@ set(public_headers
   scene/scene.h
   render/checkpoint.h
   render/checkpoint_plan.h
+  render/fair_mutex.h
   render/film.h
   render/film_layout.h
   render/holdout_sums.h

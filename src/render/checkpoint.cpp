@@ -173,7 +173,7 @@ std::span<std::byte> bytes_of(T& value) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Film& film, const Origin& origin,
-                      std::span<std::mutex> locks) {
+                      std::span<FairMutex> locks) {
   Packer header;
   Header about{film.full, film.crop, film.layout, film.groups, {}, origin};
   for (const SampleRun& run : film.runs) about.runs.push_back({run.seed, run.first});
@@ -191,7 +191,7 @@ void write_checkpoint(const std::filesystem::path& path, const Film& film, const
     const std::size_t counts = film.runs.size() * sizeof(std::uint32_t);
     bytes.resize(counts + film.tile_bytes(tile));
     {
-      std::unique_lock<std::mutex> lock;
+      std::unique_lock<FairMutex> lock;
       if (!locks.empty()) lock = std::unique_lock(locks[std::size_t(tile)]);
       for (std::size_t run = 0; run < film.runs.size(); ++run)
         std::memcpy(bytes.data() + run * sizeof(std::uint32_t),

@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
-#include <mutex>
 #include <span>
 
+#include "render/fair_mutex.h"
 #include "render/film.h"
 #include "render/traits.h"
 
@@ -30,7 +30,7 @@ struct Checkpoint {
 /// tile the samples that it has of every run, then its numbers as the film keeps them; a hash of
 /// all. Numbers are those of x86-64.
 void write_checkpoint(const std::filesystem::path& path, const Film& film, const Origin& origin,
-                      std::span<std::mutex> locks = {});
+                      std::span<FairMutex> locks = {});
 
 /// Throws Error for a file that cannot be read, is no checkpoint, is cut short or damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& path);

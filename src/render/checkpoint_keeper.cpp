@@ -9,7 +9,7 @@
 namespace airlight {
 
 CheckpointKeeper::CheckpointKeeper(CheckpointPlan plan, const Film& film,
-                                   std::span<std::mutex> locks, std::function<Origin()> origin)
+                                   std::span<FairMutex> locks, std::function<Origin()> origin)
     : plan_(std::move(plan)), film_(film), locks_(locks), origin_(std::move(origin)) {
   thread_ = std::jthread([this](const std::stop_token& stop) {
     std::mutex sleeping;

@@ -12,7 +12,7 @@ namespace airlight {
 class CheckpointKeeper {
  public:
   /// `origin` tells about the film when asked, `locks` keep rendered tiles from being read.
-  CheckpointKeeper(CheckpointPlan plan, const Film& film, std::span<std::mutex> locks,
+  CheckpointKeeper(CheckpointPlan plan, const Film& film, std::span<FairMutex> locks,
                    std::function<Origin()> origin);
   ~CheckpointKeeper() = default;
   CheckpointKeeper(const CheckpointKeeper&) = delete;
@@ -26,7 +26,7 @@ class CheckpointKeeper {
 
   const CheckpointPlan plan_;
   const Film& film_;
-  std::span<std::mutex> locks_;
+  std::span<FairMutex> locks_;
   std::function<Origin()> origin_;
   std::jthread thread_;
 };

@@ -36,13 +36,16 @@ PixelRect checked_crop(const std::optional<PixelRect>& crop, Resolution full) {
 }
 
 /// How many samples the next pass gives each pixel: as many as it has, so that passes are few, up
-/// to a length after which a tile is still done soon: what is not, is lost if the program is
-/// killed. Previews come after passes that stay short.
+/// to a length. Previews come after passes that stay short.
 std::uint32_t next_pass(std::uint32_t asked, std::uint32_t done, const RenderControl& control) {
   const std::uint32_t first = control.short_passes || control.time_limit > 0 ? 4 : 64;
   const std::uint32_t longest = control.short_passes ? 64 : 1024;
   return std::min({asked - done, std::max(done, first), longest});
 }
+
+/// How many samples a tile gets at a time: a checkpoint waits for no more, and no more is lost of
+/// it if the program is killed. Always, so that no bit depends on whether one is written.
+constexpr std::uint32_t tile_samples = 128;
 
 }  // namespace
 
@@ -89,7 +92,7 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
   }
   SampleRun& run = film.runs[0];
 
-  std::vector<std::mutex> tile_locks(run.counts.size());
+  std::vector<FairMutex> tile_locks(run.counts.size());
   std::atomic<std::int64_t> rejected = 0;
   std::atomic<bool> stopped = false;
   std::mutex reporting;
@@ -106,17 +109,15 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
     return stopped.load();
   };
 
-  /// Takes a tile from what it has to `count` samples.
-  const auto render_tile = [&](int index, std::uint32_t count) {
-    std::uint32_t& done = run.counts[std::size_t(index)];
-    if (done >= count || must_stop()) return;
+  /// Gives a tile more samples.
+  const auto add_samples = [&](int index, std::uint32_t added) {
     const FlushToZero flush;
-    const std::uint32_t added = count - done;
+    std::uint32_t& done = run.counts[std::size_t(index)];
     Tile tile{film.tile(index), {run.first + done, added}, film};
     {
       const std::scoped_lock lock(tile_locks[std::size_t(index)]);
       prepared.kernel.render(prepared.frame, tile);
-      done = count;
+      done += added;
     }
     rejected += tile.rejected;
     const std::scoped_lock lock(reporting);
@@ -127,6 +128,12 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
         double(sample_tiles_done) / (double(film.tile_count()) * double(prepared.samples.count));
     progress.seconds = seconds();
     control.on_progress(progress);
+  };
+
+  /// Takes a tile from what it has to `count` samples.
+  const auto render_tile = [&](int index, std::uint32_t count) {
+    const std::uint32_t& done = run.counts[std::size_t(index)];
+    while (done < count && !must_stop()) add_samples(index, std::min(count - done, tile_samples));
   };
 
   std::optional<CheckpointKeeper> keeper;
