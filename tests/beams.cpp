@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "error.h"
+#include "geometry/beam_image.h"
 #include "geometry/world.h"
 #include "render/render.h"
 #include "scene/load_scene.h"
@@ -206,6 +207,19 @@ Texture ramp(std::array<std::uint8_t, 3> second) {
   image.rgba = {0, 0, 0, 255, second[0], second[1], second[2], 255};
   image.wrap_u = image.wrap_v = Wrap::clamp;
   return image;
+}
+
+TEST(BeamsInScenes, do_not_pass_where_their_image_is_transparent) {
+  Scene scene = beam_in_a_box();
+  auto& beam = std::get<Collimated>(scene.lights[0]);
+  beam.cross_section = CrossSection::rectangle(1.2, 1.4);
+  Texture white;
+  white.width = white.height = 1;
+  for (const std::uint8_t alpha : {0, 51, 255}) {
+    white.rgba = {255, 255, 255, alpha};
+    const auto passed = through_image<double>(beam, white, beam.position + beam.direction, true);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(passed[c], alpha / 255., 1e-6);
+  }
 }
 
 TEST(BeamsInScenes, with_an_image_give_what_quadrature_gives) {

@@ -5,8 +5,8 @@
 
 namespace airlight {
 
-/// What the image of a beam lets pass at points of the beam, in [0, 1] for each channel; its alpha
-/// does not count. 0 in lanes that are not active.
+/// What the image of a beam lets pass at points of the beam, in [0, 1] for each channel: nothing
+/// where it is transparent, as if it lay on black. 0 in lanes that are not active.
 template <Real F>
 Rgb<F> through_image(const Collimated& beam, const Texture& image, Vec3<F> at,
                      Mask<F> active) noexcept {
@@ -19,7 +19,7 @@ Rgb<F> through_image(const Collimated& beam, const Texture& image, Vec3<F> at,
   for (int i = 0; i < lanes<F>; ++i) {
     if ((which >> i & 1) == 0) continue;
     const std::array<float, 4> texel = image.sample(float(lane(u, i)), float(lane(v, i)));
-    for (int c = 0; c < 3; ++c) values[c][i] = texel[std::size_t(c)];
+    for (int c = 0; c < 3; ++c) values[c][i] = texel[std::size_t(c)] * texel[3];
   }
   return {load<F>(values[0]), load<F>(values[1]), load<F>(values[2])};
 }

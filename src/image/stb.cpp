@@ -27,7 +27,8 @@ Codes stb_codes(const Encoded& encoded) {
   int kept = 0;
   if (stbi_info_from_memory(bytes, size, &width, &height, &kept) == 0)
     fail_to_decode(encoded,
-                   std::string("it is no picture of a known format: ") + stbi_failure_reason());
+                   std::string("it is no picture of a known format: ") + stbi_failure_reason() +
+                       "; accepted: PNG, JPEG, BMP, TGA and, but for textures, EXR, HDR, PFM");
   check_size(encoded, width, height);
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> first(
       stbi_load_from_memory(bytes, size, &width, &height, &kept, 4), stbi_image_free);
