@@ -71,13 +71,6 @@ void expect_one_line(const Outcome& outcome, int status, const std::string& part
   EXPECT_EQ(outcome.out, "");
 }
 
-/// Waits until something holds; the limit is far beyond what a busy machine needs.
-bool wait_for(const std::function<bool()>& holds) {
-  for (int i = 0; i < 6000; ++i, std::this_thread::sleep_for(10ms))
-    if (holds()) return true;
-  return false;
-}
-
 const std::vector<std::string> endless = {"--spp", "268435456", "--size", "64x64"};
 
 std::vector<std::string> with(std::vector<std::string> flags,
