@@ -255,6 +255,31 @@ TEST(SolidMedium, is_sampled_as_every_placement_says) {
       1e-3);
 }
 
+TEST(SolidMedium, of_grey_fog_is_drawn_from_alike_in_one_channel_and_in_three) {
+  Random random(8);
+  Worst worst("distance drawn in one channel or in three [m]");
+  const TestMesh mesh = test::l_mesh();
+  const auto body = closed(mesh);
+  const Solid::Space space(*body);
+  Medium grey = coloured(body);
+  grey.sigma_s = Rgb<double>(3.), grey.sigma_t = Rgb<double>(4.);  // far from 1 per metre
+  for (int i = 0; i < 100; ++i) {
+    const BoxRay ray = any_ray(random, random.of(kinds));
+    const auto one = section_of<double, 1>(space, ray, grey);
+    const auto three = section_of<double, 3>(space, ray, grey);
+    const auto see = [&](const auto& place) {
+      const auto by_one = place.on(one, Channels<double, 1>{1});
+      const auto by_three = place.on(three, Channels<double, 3>{1, 1, 1});
+      for (const double u : {0.01, 0.3, 0.8, 0.99})
+        worst.see(std::abs(by_one.sample(u) - by_three.sample(u)), ray);
+    };
+    see(WholeVolume{});
+    see(Distance{});
+    see(Mixed{});
+  }
+  worst.expect_below(1e-11);
+}
+
 /// Lanes of rays against each ray by itself in double, of numbers that floats hold.
 template <Real F>
 void expect_same(const char* what, double allowed) {

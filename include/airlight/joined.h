@@ -28,7 +28,7 @@ class Joined {
   static constexpr int most_kinks = 2 * most_faces + 5 * most_parts;
   static constexpr int most_pieces = most_kinks + 1;
   static constexpr int most_stretches = most_parts;
-  static constexpr bool in_pieces = true;
+  static constexpr bool in_pieces = true, one_medium = false;
 
   /// Whether there is room for these media and all are boxes or convex polyhedra. Whether they
   /// overlap is not looked at.

@@ -34,7 +34,7 @@ struct SpaceBelowStart {
 /// The same where the optical depth is linear in pieces.
 template <Real F, InPieces Space>
 struct SpaceBelowStart<F, Space> {
-  static constexpr bool in_pieces = true;
+  static constexpr bool in_pieces = true, one_medium = Space::one_medium;
   static constexpr int most_stretches = Space::most_stretches;
   template <Real G>
   using StretchesOf = typename Space::template StretchesOf<G>;

@@ -50,7 +50,7 @@ struct Section<F, channels_, Space> {
 
   /// The way from the camera alone, in pieces: its transmittance times what scatters.
   auto camera_way() const noexcept {
-    constexpr bool one_medium = std::tuple_size_v<typename Cut::Depths> < channels;
+    constexpr bool one_medium = Space::one_medium;
     Pieces<F, channels, int(std::tuple_size_v<typename Cut::Depths>), 2 * Space::most_stretches + 1>
         camera;
     const F cosine = dot(w, ray.d);

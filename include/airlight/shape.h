@@ -64,6 +64,7 @@ struct LightStart {
 /// A space in which the optical depth of the whole way is not concave, as in one convex body, but
 /// linear in pieces: of media side by side, or inside a concave boundary.
 ///
+///     Space::one_medium                   whether pieces hold lengths, for one medium fills all
 ///     space.stretches(ray, medium)        the ray's own stretches inside
 ///     space.cut(ray, w, t_max, stretches, pieces, start)  fills `Pieces` for light from w
 ///     space.seen(ray, t, w, stretches, start)  a point of them, without the others

@@ -316,7 +316,7 @@ inline void MeshSection::along_the_light(const ClosedMesh& mesh, Vec3<double> o,
 
 class Solid::Space {
  public:
-  static constexpr bool in_pieces = true;
+  static constexpr bool in_pieces = true, one_medium = true;
   static constexpr int most_stretches = (ClosedMesh::most_cut + 1) / 2;
   static constexpr int most_pieces = MeshSection::most_pieces;
 
