@@ -184,13 +184,13 @@ std::array<Measured, 3> orders_of(const Scene& scene, RenderSettings settings, i
   return result;
 }
 
-/// How far two means lie apart in standard errors, at most; expects below 4. Up to 1024 samples of
-/// a ray are added up in floats, which drifts by 2e-5.
+/// How far two means lie apart in standard errors, at most; expects below 4. Floats may be off by
+/// 4e-6, the error of the closed form.
 double worst_z(const Measured& a, const Measured& b) {
   double worst = 0;
   for (int k = 0; k < orders; ++k)
     for (int c = 0; c < 3; ++c) {
-      const double error = std::hypot(a.error[k][c], b.error[k][c], 2e-5 * b.mean[0][c]);
+      const double error = std::hypot(a.error[k][c], b.error[k][c], 4e-6 * b.mean[0][c]);
       const double z = std::abs(a.mean[k][c] - b.mean[k][c]) / error;
       EXPECT_LT(z, 4) << "order " << k + 1 << ", channel " << c << ": " << a.mean[k][c] << " +- "
                       << a.error[k][c] << " and " << b.mean[k][c] << " +- " << b.error[k][c];
@@ -232,8 +232,11 @@ TEST_P(EveryPlace, gives_every_order_alike_however_it_is_sampled) {
     RenderSettings settings = scene.render;
     settings.estimator = way.estimator, settings.continuation = way.continuation;
     settings.surface = way.surface, settings.isa = way.isa;
-    settings.spp = way.isa == InstructionSet::reference ? 256 : 1024;
-    const auto [lit, analytic, unoccluded] = orders_of(scene, settings, 24);
+    // Few samples and many seeds: the error of many strata is where a jump falls in one of them,
+    // far from normal in the mean of a few seeds.
+    settings.spp = 64;
+    const auto [lit, analytic, unoccluded] =
+        orders_of(scene, settings, way.isa == InstructionSet::reference ? 96 : 384);
     SCOPED_TRACE(testing::Message() << way.estimator << " " << int(way.continuation));
     worst = std::max({worst, worst_z(lit, truth), worst_z(unoccluded, analytic)});
     for (int c = 0; c < 3; ++c)

@@ -43,8 +43,9 @@ std::uint32_t next_pass(std::uint32_t asked, std::uint32_t done, const RenderCon
   return std::min({asked - done, std::max(done, first), longest});
 }
 
-/// How many samples a tile gets at a time: a checkpoint waits for no more, and no more is lost of
-/// it if the program is killed. Always, so that no bit depends on whether one is written.
+/// How many samples a tile gets at a time. They are summed in float before they are added to the
+/// film in double, where longer runs would drift; a checkpoint waits for no more, and no more is
+/// lost of it if the program is killed.
 constexpr std::uint32_t tile_samples = 128;
 
 }  // namespace

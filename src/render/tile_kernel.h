@@ -203,10 +203,6 @@ class TileKernel {
   }
 
  private:
-  /// Samples summed in F before they are added to the film's sums in double: longer runs of floats
-  /// drift.
-  static constexpr std::uint32_t longest_run = 1024;
-
   /// The pixels from (x0, y0) of the film on.
   void packet(int x0, int y0) noexcept {
     const PixelRect& rect = tile_.rect;
@@ -228,21 +224,16 @@ class TileKernel {
                                                  number(crop.y0 + y0, lane_bits.y))};
     const Rgb<F> background = background_at(frame_.scene, x, y);
 
-    const FilmPixels to = tile_.film.at(x0, y0);
     const std::uint32_t end = tile_.samples.first + tile_.samples.count;
-    std::uint32_t held = 0;
     for (std::uint32_t i = tile_.samples.first; i < end;) {
       const std::uint32_t index = i / frame_.samples_per_ray;
       // Through the centre, one walk along the surfaces serves all.
-      const std::uint32_t stop = std::min(
-          end, frame_.through_centre ? i + longest_run : (index + 1) * frame_.samples_per_ray);
+      const std::uint32_t stop =
+          frame_.through_centre ? end : std::min(end, (index + 1) * frame_.samples_per_ray);
       camera_ray(x, y, background, index, {i, stop - i}, sampler, active, i == tile_.samples.first);
-      held += stop - i;
       i = stop;
-      if (held < longest_run && i < end) continue;
-      tile_.rejected += sums_.spill(frame_.layout, to, active);
-      held = 0;
     }
+    tile_.rejected += sums_.spill(frame_.layout, tile_.film.at(x0, y0), active);
   }
 
   void camera_ray(F x, F y, Rgb<F> background, std::uint32_t index, SampleRange samples,

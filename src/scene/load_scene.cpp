@@ -97,9 +97,7 @@ Scene SceneFile::scene(std::int64_t frame) const {
 }
 
 void SceneFile::check(std::int64_t frame) const {
-  const Value document = content_->document(overrides_at(frame)).first;
-  SceneDocument unused;
-  read_table(Cursor(document), unused);
+  read_scene_document(content_->document(overrides_at(frame)).first);
 }
 
 std::vector<Override> SceneFile::overrides_at(std::int64_t frame) const {

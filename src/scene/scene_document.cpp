@@ -58,10 +58,15 @@ void check_together(const Scene& scene, const Cursor& at) {
 
 }  // namespace
 
+SceneDocument read_scene_document(const Value& value) {
+  SceneDocument document;
+  read_table(Cursor(value), document);
+  return document;
+}
+
 Scene scene_of(const Value& value, const Files& files) {
   const Cursor at(value);
-  SceneDocument document;
-  read_table(at, document);
+  const SceneDocument document = read_scene_document(value);
 
   Scene scene;
   scene.camera = document.camera;

@@ -44,6 +44,9 @@ struct SceneDocument {
   }
 };
 
+/// Reads the text alone, no file that it names. Throws Error as `scene_of` does.
+SceneDocument read_scene_document(const Value& document);
+
 /// What a document means. Throws Error, one line, for everything that cannot be accepted.
 Scene scene_of(const Value& document, const Files& files);
 
