@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <ctime>
+#include <limits>
 
 #include "error.h"
 #include "image/input.h"
@@ -166,6 +168,33 @@ TEST(ReadPicture, gives_back_what_was_written) {
   EXPECT_EQ(light_groups(read), (std::vector<std::string>{"lamp", "sun", "ungrouped"}));
   write_exr(folder / "b.exr", read, ExrType::half);
   EXPECT_EQ(bytes_of(folder / "a.exr"), bytes_of(folder / "b.exr"));
+}
+
+TEST(ReadPicture, unpacks_a_file_once_and_not_once_a_layer) {
+  const Folder folder;
+  constexpr int layers = 60;
+  Picture many;
+  many.width = 256, many.height = 128;
+  for (int i = 0; i < layers; ++i) {
+    const auto waves = [i](int y, std::span<float> row) {
+      for (std::size_t k = 0; k < row.size(); ++k)
+        row[k] = float(std::sin(double(k) + 1.7 * y + i));
+    };
+    many.layers.push_back({i == 0 ? "beauty" : fmt::format("l{}", i), {"R", "G", "B"}, waves});
+  }
+  write_exr(folder / "many.exr", many, ExrType::half);
+  const auto processor_time = [](auto&& read) {
+    std::clock_t least = std::numeric_limits<std::clock_t>::max();
+    for (int i = 0; i < 3; ++i) {
+      const std::clock_t start = std::clock();
+      read();
+      least = std::min(least, std::clock() - start);
+    }
+    return double(least);
+  };
+  const double of_one = processor_time([&] { read_image(folder / "many.exr", "l7"); });
+  const double of_all = processor_time([&] { read_picture(folder / "many.exr"); });
+  EXPECT_LT(of_all, layers / 4. * of_one);  // to unpack dominates, and is the same for both
 }
 
 void expect_refused(const Outcome& outcome, const std::string& part) {

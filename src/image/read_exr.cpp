@@ -96,18 +96,18 @@ std::string channel_of(const Encoded& encoded, const Imf::ChannelList& channels,
                                       fmt::join(candidates, " or "), fmt::join(all, ", ")));
 }
 
-Image read_channels(const Encoded& encoded, Imf::InputFile& file,
-                    const std::vector<std::string>& names) {
-  const Imath::Box2i window = file.header().dataWindow();
+/// An image of these channels, which `frame` will fill.
+Image image_of(const Encoded& encoded, const Imf::Header& header,
+               const std::vector<std::string>& names, Imf::FrameBuffer& frame) {
+  const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
   const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
   check_size(encoded, width, height);
 
-  const Imf::ChannelList& channels = file.header().channels();
+  const Imf::ChannelList& channels = header.channels();
   Image image(int(width), int(height), int(names.size()));
   const std::size_t pixel_bytes = names.size() * sizeof(float);
   const std::size_t row_bytes = std::size_t(width) * pixel_bytes;
-  Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < names.size(); ++c) {
     const Imf::Channel& channel = *channels.findChannel(names[c]);
     if (channel.xSampling != 1 || channel.ySampling != 1)
@@ -115,8 +115,21 @@ Image read_channels(const Encoded& encoded, Imf::InputFile& file,
     frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window,
                                             pixel_bytes, row_bytes));
   }
+  return image;
+}
+
+/// Fills all images of `frame` at once: every block of a file holds a part of all channels.
+void read_pixels(Imf::InputFile& file, const Imf::FrameBuffer& frame) {
+  const Imath::Box2i window = file.header().dataWindow();
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
+}
+
+Image read_channels(const Encoded& encoded, Imf::InputFile& file,
+                    const std::vector<std::string>& names) {
+  Imf::FrameBuffer frame;
+  Image image = image_of(encoded, file.header(), names, frame);
+  read_pixels(file, frame);
   return image;
 }
 
@@ -136,12 +149,13 @@ void add_channel(std::vector<Layer>& layers, const std::string& name, Storage st
   });
 }
 
-/// Reads a layer's pixels, which it then keeps.
-void read_layer(const Encoded& encoded, Imf::InputFile& file, Layer& layer) {
+/// Gives a layer pixels to keep, which `frame` will fill.
+void add_pixels(const Encoded& encoded, const Imf::Header& header, Layer& layer,
+                Imf::FrameBuffer& frame) {
   std::vector<std::string> names;
   for (const std::string& channel : layer.channels)
     names.push_back(layer.name.empty() ? channel : layer.name + "." + channel);
-  const auto image = std::make_shared<const Image>(read_channels(encoded, file, names));
+  const auto image = std::make_shared<const Image>(image_of(encoded, header, names, frame));
   layer.fill = [image](int y, std::span<float> row) {
     std::ranges::copy(image->row(y), row.begin());
   };
@@ -198,8 +212,11 @@ Picture exr_picture(const Encoded& encoded) {
     if (std::erase(beauty.channels, "A") > 0) picture.alpha = Layer{"", {"A"}, {}, beauty.storage};
     if (!beauty.name.empty() || beauty.channels != std::vector<std::string>{"R", "G", "B"})
       fail_to_decode(encoded, "it has no channels R, G, B");
-    for (Layer& layer : picture.layers) read_layer(encoded, file, layer);
-    if (picture.alpha) read_layer(encoded, file, *picture.alpha), picture.alpha->name = "alpha";
+    Imf::FrameBuffer frame;
+    for (Layer& layer : picture.layers) add_pixels(encoded, header, layer, frame);
+    if (picture.alpha) add_pixels(encoded, header, *picture.alpha, frame);
+    read_pixels(file, frame);
+    if (picture.alpha) picture.alpha->name = "alpha";
     beauty.name = "beauty";
     picture.width = window.max.x - window.min.x + 1;
     picture.height = window.max.y - window.min.y + 1;
