@@ -78,8 +78,8 @@ TEST(Probe, has_the_radiance_of_the_renderers_pixel) {
     const Scene scene = scene_with(changes);
     for (const auto& [x, y] : {std::pair(16, 11), {20, 4}, {3, 20}, {0, 0}}) {
       const Probe found = probe(scene, scene.render, x, y);
-      // The film keeps its sums in float: a few roundings of 6e-8.
-      expect_near(found.radiance, rendered(scene, x, y), 1e-6);
+      // The film keeps its sums in double: a few roundings of 1e-16.
+      expect_near(found.radiance, rendered(scene, x, y), 1e-13);
     }
   }
 }
@@ -160,6 +160,47 @@ TEST(Probe, steps_and_nodes_agree_with_the_closed_form) {
         EXPECT_LE(nearest, width);
       }
     }
+  }
+}
+
+TEST(Probe, measures_the_way_through_media_in_pieces_from_the_camera_to_where_a_beam_starts) {
+  // Two fogs of σ_t = 0.5 and 1 side by side; the beam starts in the first, half a metre above.
+  const Scene scene = parse_scene(R"(
+[camera]
+position = [0.2, 0, 5]
+target = [0.2, 0, 0]
+[image]
+width = 1
+height = 1
+[render]
+samples_per_ray = 0
+[[media]]
+sigma_s = 0.5
+sigma_a = 0
+shape = {type = "box", min = [-1, -1, -1], max = [1, 1, 1]}
+[[media]]
+sigma_s = 1
+sigma_a = 0
+shape = {type = "box", min = [-1, -1, -3], max = [1, 1, -1]}
+[[lights]]
+type = "collimated"
+irradiance = 1
+position = [0, 0.5, -0.7]
+direction = [0, -1, 0]
+cross_section = {type = "rectangle", width = 2, height = 1.6}
+)",
+                                  "scene", {});
+  const ProbedRay ray = probe(scene, scene.render, 0, 0).rays.at(0);
+  const std::vector<ProbedNode>& nodes = ray.lights.at(0).nodes;
+  ASSERT_FALSE(nodes.empty());
+  // Into the fog at z = 1, t = 4, and into the beam at z = 0.1; into the second fog at z = -1,
+  // where the depth of the way to the light jumps; out of the beam at z = -1.5.
+  ASSERT_EQ(nodes.size(), 4u);
+  const double t[] = {4.9, 6, 6, 6.5}, depth[] = {0.45 + 0.25, 1 + 0.25, 1 + 0.5, 1.5 + 0.5};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_NEAR(nodes[i].t, t[i], 1e-12);
+    EXPECT_NEAR(nodes[i].length, t[i] - 4 + 0.5, 1e-12);
+    EXPECT_NEAR(nodes[i].optical_depth.r, depth[i], 1e-12);
   }
 }
 

@@ -89,13 +89,15 @@ class LightProbe {
   void add_nodes(ProbedLight& result) const {
     if constexpr (InPieces<Space>) {
       const std::vector<double> lengths = piece_lengths();
+      const Rgb<double> before =
+          space_.stretches(whole_ray_.entry, medium_).depth(ray_.t_enter - whole_ray_.t_enter);
       for (int i = 0; i < section_.pieces.count; ++i) {
         const double begin = ray_.t_enter + section_.pieces.t[i];
         const double end = ray_.t_enter + section_.pieces.t[i + 1];
         const std::size_t k = 2 * std::size_t(i);
         if (i == 0 || !continues(i))
-          result.nodes.push_back({begin, lengths[k], depths(section_.pieces.begin[i])});
-        result.nodes.push_back({end, lengths[k + 1], depths(section_.pieces.end[i])});
+          result.nodes.push_back({begin, lengths[k], before + depths(section_.pieces.begin[i])});
+        result.nodes.push_back({end, lengths[k + 1], before + depths(section_.pieces.end[i])});
       }
     } else {
       for (int i = 0; i <= section_.way.segments; ++i) {
@@ -132,11 +134,14 @@ class LightProbe {
     std::vector<double> lengths;
     with_space(media, [&](const Medium* first, const auto& space) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(space)>, Space>) {
-        auto section = section_along<double, 1>(*first, space, ray_, toward_);
+        const auto lit = lit_part(light_, *first, space, whole_ray_);
+        auto section = section_along<double, 1>(*first, lit.space, lit.ray, toward_);
         section.trace_way_out();
+        const double before =
+            space.stretches(whole_ray_.entry, *first).depth(lit.ray.t_enter - whole_ray_.t_enter).r;
         for (int i = 0; i < section.pieces.count; ++i) {
-          lengths.push_back(section.pieces.begin[i][0]);
-          lengths.push_back(section.pieces.end[i][0]);
+          lengths.push_back(before + section.pieces.begin[i][0]);
+          lengths.push_back(before + section.pieces.end[i][0]);
         }
       }
     });
