@@ -32,6 +32,7 @@
 #pragma GCC diagnostic pop
 
 using namespace airlight;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -91,6 +92,23 @@ void write_pixel(png_uint_32 format, const void* codes, const std::filesystem::p
   header.width = header.height = 1;
   header.format = format;
   ASSERT_TRUE(png_image_write_to_file(&header, path.c_str(), 0, codes, 0, nullptr));
+}
+
+/// What is read from a grey PNG of one pixel of 16 bit.
+float wide_pixel(const std::string& path, std::uint16_t code) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_set_IHDR(png, info, 1, 1, 16, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  const png_byte row[] = {png_byte(code >> 8), png_byte(code & 255)};
+  png_write_row(png, row);
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  std::fclose(file);
+  return read_image(path).at(0, 0, 0);
 }
 
 class EveryFormat : public testing::TestWithParam<const char*> {};
@@ -293,6 +311,11 @@ TEST(Png, is_read_in_16_bit_and_over_black) {
   const Image linear = read_image(folder / "wide.png");
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(linear.at(0, 0, c), wide[c] / 65535.0, 1 / 65535.0);
 
+  // Without a word about gamma, codes are sRGB's, as those of 8 bit.
+  for (const int code : {1, 5, 100, 255})
+    EXPECT_NEAR(wide_pixel(folder / "codes.png", std::uint16_t(code * 257)), linear_of_srgb[code],
+                1e-7);
+
   const std::uint8_t clear[] = {200, 100, 255, 0};
   write_pixel(PNG_FORMAT_RGBA, clear, folder / "clear.png");
   EXPECT_THAT(read_image(folder / "clear.png").pixels, ElementsAre(0, 0, 0));
@@ -399,7 +422,8 @@ TEST(ReadImage, names_the_file_and_the_reason) {
             name + "/sun.png: cannot be read: No such file or directory");
   write_text(folder / "a.exr", "not a picture at all");
   EXPECT_THAT(error_of([&] { read_image(folder / "a.exr"); }),
-              HasSubstr("/a.exr: cannot be read: it is no picture of a known format"));
+              AllOf(HasSubstr("/a.exr: cannot be read: it is no picture of a known format"),
+                    HasSubstr("; accepted: PNG, JPEG, BMP, TGA, EXR, HDR, PFM")));
   write_text(folder / "a.pfm", "PF\n1000000000 1000000000\n-1.0\n");
   EXPECT_THAT(error_of([&] { read_image(folder / "a.pfm"); }),
               HasSubstr("1000000000 x 1000000000 pixels"));

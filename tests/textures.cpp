@@ -127,6 +127,7 @@ TEST(Texture, names_the_file_that_is_none) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("leaf.png: cannot be read: it is no picture"));
+    EXPECT_THAT(error.what(), testing::EndsWith("; accepted: PNG, JPEG, BMP, TGA"));
   }
   EXPECT_THROW(decode_texture({}, "buffer 0"), Error);
 }

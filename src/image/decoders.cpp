@@ -24,10 +24,10 @@ void check_size(const Encoded& encoded, std::int64_t width, std::int64_t height)
                                         width, height, max_pixels));
 }
 
-Codes decode_codes(const Encoded& encoded) {
+Codes decode_codes(const Encoded& encoded, const std::string& accepted) {
   if (encoded.is_png()) return png_codes(encoded);
   if (encoded.starts_with("\xff\xd8")) return jpeg_codes(encoded);
-  return stb_codes(encoded);
+  return stb_codes(encoded, accepted);
 }
 
 }  // namespace airlight

@@ -51,9 +51,10 @@ struct Codes {
   std::vector<std::uint8_t> rgba;  ///< four bytes a pixel, row 0 on top
 };
 
-Codes decode_codes(const Encoded& encoded);  ///< any of the three below
+/// Any of the three below. `accepted` is what an error says that the caller takes.
+Codes decode_codes(const Encoded& encoded, const std::string& accepted = "PNG, JPEG, BMP, TGA");
 Codes png_codes(const Encoded& encoded);
 Codes jpeg_codes(const Encoded& encoded);
-Codes stb_codes(const Encoded& encoded);  ///< BMP and TGA
+Codes stb_codes(const Encoded& encoded, const std::string& accepted);  ///< BMP and TGA
 
 }  // namespace airlight

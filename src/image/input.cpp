@@ -28,7 +28,7 @@ Image image_of(const Encoded& encoded, const std::string& layer) {
   if (is_pfm(encoded)) return decode_pfm(encoded);
   if (encoded.is_png()) return decode_png(encoded);
   if (is_hdr(encoded)) return decode_hdr(encoded);
-  return linear(decode_codes(encoded));
+  return linear(decode_codes(encoded, "PNG, JPEG, BMP, TGA, EXR, HDR, PFM"));
 }
 
 }  // namespace

@@ -66,6 +66,18 @@ struct Decoder {
     return true;
   }
 
+  /// Rows of 16 bit RGBA in the machine's order, whatever the file has; after `read_info`.
+  bool read_wide(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_expand_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 65535, PNG_FILLER_AFTER);
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
+    png_set_interlace_handling(png);
+    png_read_image(png, rows);
+    return true;
+  }
+
   /// Rows of 8 bit RGBA, whatever the file has; after `read_info`.
   bool read_rgba(png_bytepp rows) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -79,16 +91,56 @@ struct Decoder {
   }
 };
 
+/// Linear light of every 16 bit code: by sRGB's curve, unless the file tells a gamma that is not
+/// near it.
+std::vector<float> linear_of_wide(const Decoder& decoder) {
+  double gamma = 0;
+  const bool other = png_get_valid(decoder.png, decoder.info, PNG_INFO_sRGB) == 0 &&
+                     png_get_gAMA(decoder.png, decoder.info, &gamma) != 0 &&
+                     std::abs(gamma * 2.2 - 1) > 0.05;
+  std::vector<float> table(65536);
+  for (std::size_t code = 0; code < table.size(); ++code) {
+    const double c = double(code) / 65535;
+    table[code] = float(other ? std::pow(c, 1 / gamma) : linear_of_code(c));
+  }
+  return table;
+}
+
+/// A picture of 16 bit codes. Libpng's own way to linear light takes sRGB for a power, which leaves
+/// a quarter of what is dark.
+Image wide_picture(const Encoded& encoded) {
+  Source source{encoded.bytes, ""};
+  Decoder decoder(source);
+  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  const auto width = png_get_image_width(decoder.png, decoder.info);
+  const auto height = png_get_image_height(decoder.png, decoder.info);
+  check_size(encoded, width, height);
+  std::vector<std::uint16_t> codes(std::size_t(width) * height * 4);
+  std::vector<png_bytep> rows(height);
+  for (std::size_t y = 0; y < height; ++y)
+    rows[y] = reinterpret_cast<png_bytep>(codes.data() + y * width * 4);
+  const std::vector<float> linear = linear_of_wide(decoder);
+  if (!decoder.read_wide(rows.data())) fail_to_decode(encoded, source.error);
+  Image image(int(width), int(height), 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::size_t pixel = i / 3 * 4;
+    image.pixels[i] = linear[codes[pixel + i % 3]] * (float(codes[pixel + 3]) / 65535.0F);
+  }
+  return image;
+}
+
 }  // namespace
 
 Image decode_png(const Encoded& encoded) {
+  Source source{encoded.bytes, ""};
+  Decoder decoder(source);
+  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  if (png_get_bit_depth(decoder.png, decoder.info) == 16) return wide_picture(encoded);
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&header, encoded.bytes.data(), encoded.bytes.size()) == 0)
     fail_to_decode(encoded, header.message);
-  const bool wide = (header.format & PNG_FORMAT_FLAG_LINEAR) != 0;  // 16 bit
-  header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // unless the file says otherwise
-  header.format = wide ? PNG_FORMAT_LINEAR_RGB : PNG_FORMAT_RGB;
+  header.format = PNG_FORMAT_RGB;
   const auto width = header.width;
   const auto height = header.height;
   try {
@@ -100,16 +152,10 @@ Image decode_png(const Encoded& encoded) {
 
   Image image(int(width), int(height), 3);
   const png_color black{0, 0, 0};
-  const auto read = [&]<class Code>(auto linear_of, Code) {
-    std::vector<Code> codes(image.pixels.size());
-    if (png_image_finish_read(&header, &black, codes.data(), 0, nullptr) == 0)
-      fail_to_decode(encoded, header.message);
-    for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i] = linear_of(codes[i]);
-  };
-  if (wide)
-    read([](png_uint_16 code) { return float(code) / 65535.0F; }, png_uint_16{});
-  else
-    read([](std::uint8_t code) { return linear_of_srgb[code]; }, std::uint8_t{});
+  std::vector<std::uint8_t> codes(image.pixels.size());
+  if (png_image_finish_read(&header, &black, codes.data(), 0, nullptr) == 0)
+    fail_to_decode(encoded, header.message);
+  for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i] = linear_of_srgb[codes[i]];
   return image;
 }
 

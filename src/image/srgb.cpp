@@ -7,12 +7,14 @@ namespace airlight {
 
 const std::array<float, 256> linear_of_srgb = [] {
   std::array<float, 256> table{};
-  for (int code = 0; code < 256; ++code) {
-    const double c = code / 255.0;
-    table[std::size_t(code)] = float(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-  }
+  for (int code = 0; code < 256; ++code)
+    table[std::size_t(code)] = float(linear_of_code(code / 255.0));
   return table;
 }();
+
+double linear_of_code(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
 
 std::uint8_t srgb_of_linear(float linear) {
   const float x = std::clamp(linear, 0.0F, 1.0F);

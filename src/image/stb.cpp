@@ -17,7 +17,7 @@
 
 namespace airlight {
 
-Codes stb_codes(const Encoded& encoded) {
+Codes stb_codes(const Encoded& encoded, const std::string& accepted) {
   if (encoded.bytes.size() > std::size_t{INT_MAX})
     fail_to_decode(encoded, "it is longer than 2 GiB");
   const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.bytes.data());
@@ -26,9 +26,8 @@ Codes stb_codes(const Encoded& encoded) {
   int height = 0;
   int kept = 0;
   if (stbi_info_from_memory(bytes, size, &width, &height, &kept) == 0)
-    fail_to_decode(encoded,
-                   std::string("it is no picture of a known format: ") + stbi_failure_reason() +
-                       "; accepted: PNG, JPEG, BMP, TGA and, but for textures, EXR, HDR, PFM");
+    fail_to_decode(encoded, std::string("it is no picture of a known format: ") +
+                                stbi_failure_reason() + "; accepted: " + accepted);
   check_size(encoded, width, height);
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> first(
       stbi_load_from_memory(bytes, size, &width, &height, &kept, 4), stbi_image_free);
