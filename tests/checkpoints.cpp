@@ -161,6 +161,23 @@ TEST(Checkpoint, is_written_again_and_again_while_a_pass_goes_on) {
   EXPECT_EQ(written, 5);
 }
 
+TEST(Checkpoint, that_cannot_be_written_is_told_once_and_at_the_end) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "inner");
+  const Scene scene = scene_with({"render.spp=1024", "render.threads=2"});
+  int failures = 0;
+  RenderControl control;
+  control.checkpoint = {.file = folder / "inner/a.ckpt", .every = 0.01, .on_failure = {}};
+  control.checkpoint->on_failure = [&](const Error&) { ++failures; };
+  control.on_progress = [&](const Progress&) {
+    std::filesystem::remove_all(folder / "inner");
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  };
+  EXPECT_FALSE(Renderer(scene).render(scene.render, control).kept);
+  EXPECT_GE(failures, 1);
+  EXPECT_LE(failures, 2);
+}
+
 TEST(Checkpoint, waits_for_no_more_than_128_samples_of_a_tile) {
   const Folder folder;
   const Scene scene = scene_with({"render.spp=1024", "image.width=16", "image.height=9"});
@@ -216,6 +233,20 @@ TEST(Resume, of_a_render_stopped_anywhere_gives_what_it_would_have_been) {
     }
     EXPECT_GT(stops, 3);
   }
+}
+
+TEST(Merge, tells_that_some_pixels_have_more_samples_than_others) {
+  const Folder folder;
+  std::stop_source stop;
+  RenderControl control;
+  control.stop = stop.get_token();
+  control.on_progress = [&](const Progress&) { stop.request_stop(); };
+  const Rendered part = render(scene_with({"render.spp=96"}), folder / "a.ckpt", control);
+  EXPECT_EQ(part.film.samples(), 0);
+  EXPECT_GT(part.film.most_samples(), 0);
+  const Outcome merged = run({"merge", folder / "a.ckpt", "-o", folder / "a.png"});
+  EXPECT_THAT(merged.out,
+              HasSubstr(fmt::format(", 0 to {} spp of 1 file", part.film.most_samples())));
 }
 
 TEST(Resume, changes_no_bit_where_passes_end_where_they_would_have) {

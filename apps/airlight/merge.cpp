@@ -70,7 +70,7 @@ int merge(Flags& flags) {
   for (const auto& file : kept) airlight::write_checkpoint(file, film, sum.origin);
   if (!flags.quiet)
     fmt::print("{}: {} x {}, {} spp of {} file{}, {:.2f} s{}\n", names, film.crop.width,
-               film.crop.height, film.samples(), flags.files.size(),
+               film.crop.height, samples_of(film), flags.files.size(),
                flags.files.size() == 1 ? "" : "s", sum.origin.seconds, remark(film));
   return 0;
 }

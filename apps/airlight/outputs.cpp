@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <set>
+#include <string>
 
 #include "error.h"
 #include "extension.h"
@@ -127,6 +128,12 @@ std::string Outputs::names() const {
   std::string names;
   for (const auto& file : files_) names += (names.empty() ? "" : ", ") + file.string();
   return names;
+}
+
+std::string samples_of(const airlight::Film& film) {
+  const std::string least = std::to_string(film.samples()),
+                    most = std::to_string(film.most_samples());
+  return least == most ? least : least + " to " + most;
 }
 
 void tell_origin(airlight::Picture& picture, const std::string& estimator,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "image/output.h"
+#include "render/film.h"
 #include "scene/document.h"
 #include "verb.h"
 
@@ -39,6 +40,9 @@ class Outputs {
   std::vector<airlight::Override> changes_;
   airlight::OutputOptions options_;
 };
+
+/// "64", or "0 to 64" where some pixels have more samples than others.
+std::string samples_of(const airlight::Film& film);
 
 /// Adds to a film's picture how its samples came about.
 void tell_origin(airlight::Picture& picture, const std::string& estimator,

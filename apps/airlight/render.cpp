@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 #include "error.h"
 #include "flags.h"
@@ -196,14 +197,15 @@ Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
   const char* const instruction_set = renderer.instruction_set(scene.render);
   if (manner.schedule.preview > 0) {
     control.short_passes = true;
-    control.on_pass = [&, next = 0.](const airlight::Film& film,
-                                     const airlight::Progress& progress) mutable {
+    control.on_pass = [&, next = 0., told = false](const airlight::Film& film,
+                                                   const airlight::Progress& progress) mutable {
       if (progress.seconds < next || progress.samples_done == progress.samples) return;
       try {
         outputs.write(
             picture_of(film, scene.render, manner.alpha, instruction_set, progress.seconds));
+        told = false;
       } catch (const Error& error) {  // the render goes on: its last picture may succeed
-        tell(error);
+        if (!std::exchange(told, true)) tell(error);
       }
       next = progress.seconds + manner.schedule.preview;
     };
@@ -224,7 +226,8 @@ Ending render_picture(Scene scene, const Outputs& outputs, const Manner& manner,
         fmt::print(stderr, "warning: {}\n", warning);
     const std::string of = done.complete ? "" : fmt::format(" of {}", scene.render.spp);
     fmt::print("{}: {} x {}, {}{} spp, {:.2f} s ({})\n", outputs.names(), done.film.crop.width,
-               done.film.crop.height, done.samples, of, done.seconds, done.instruction_set);
+               done.film.crop.height, samples_of(done.film), of, done.seconds,
+               done.instruction_set);
   }
   return {done.kept ? status : bad_input};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "image/atomic_file.h"
 
@@ -23,15 +24,17 @@ CheckpointKeeper::CheckpointKeeper(CheckpointPlan plan, const Film& film,
 bool CheckpointKeeper::finish() {
   thread_.request_stop();
   thread_.join();
+  told_ = false;
   return write();
 }
 
-bool CheckpointKeeper::write() const {
+bool CheckpointKeeper::write() {
   try {
     write_checkpoint(plan_.file, film_, origin_(), locks_);
+    told_ = false;
     return true;
   } catch (const Error& error) {
-    if (plan_.on_failure) plan_.on_failure(error);
+    if (plan_.on_failure && !std::exchange(told_, true)) plan_.on_failure(error);
     return false;
   }
 }

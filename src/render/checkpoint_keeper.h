@@ -22,12 +22,13 @@ class CheckpointKeeper {
   bool finish();
 
  private:
-  bool write() const;
+  bool write();
 
   const CheckpointPlan plan_;
   const Film& film_;
   std::span<FairMutex> locks_;
   std::function<Origin()> origin_;
+  bool told_ = false;  ///< that it fails, since it last succeeded
   std::jthread thread_;
 };
 

@@ -12,7 +12,7 @@ struct CheckpointPlan {
   double every = 60;    ///< how often it is written: no more is lost, and 128 samples of tiles  [s]
   bool resume = false;  ///< goes on with what the file holds, if it is there
   /// Told of a file that could not be written, by another thread but never beside on_progress; the
-  /// render goes on.
+  /// render goes on. Told again only if it could be written in between, and at the end.
   std::function<void(const Error&)> on_failure;
 };
 

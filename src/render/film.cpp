@@ -257,6 +257,13 @@ std::int64_t Film::samples() const {
   return sum;
 }
 
+std::int64_t Film::most_samples() const {
+  auto sums = std::vector<std::int64_t>(std::size_t(tile_count()));
+  for (const SampleRun& run : runs)
+    std::ranges::transform(sums, run.counts, sums.begin(), std::plus());
+  return std::ranges::max(sums);
+}
+
 namespace {
 
 /// A row of pixels of all groups, read once for all layers that are asked for it in turn, as

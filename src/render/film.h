@@ -99,8 +99,9 @@ class Film {
   /// Adds the samples of a film of the same scene, size and crop. Throws Error if they share some.
   void merge(const Film& other);
 
-  /// Samples that every pixel has.
+  /// Samples that every pixel has, and those of the pixels that have most.
   std::int64_t samples() const;
+  std::int64_t most_samples() const;
 
   /// The beauty and every other layer, as something to write. It refers to the film, which must
   /// stay where and as it is: the layers share the row of pixels that one of them read last, and
