@@ -353,6 +353,27 @@ TEST(BeamsInScenes, bring_a_floor_the_energy_they_start_with) {
               0.03 * 7 * pi * 0.01);
 }
 
+// Shadow rays leave a surface a little above it, which may be before the start plane.
+TEST(BeamsInScenes, light_what_lies_right_behind_their_start) {
+  Scene scene;
+  scene.resolution = {1, 1};
+  scene.camera = {.position = {3, 4, 0}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 1};
+  Mesh floor;
+  floor.positions = {{-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}};
+  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.objects.push_back({"floor", floor, {}});
+  scene.objects[0].material.albedo = Rgb<double>(0.4);
+  Collimated beam;
+  beam.irradiance = Rgb<double>(7.);
+  beam.direction = {0, -1, 0};
+  beam.position = {0, 1e-5, 0};
+  scene.lights = {beam};
+  for (const Visibility visibility : {Visibility::embree, Visibility::analytic}) {
+    scene.render.visibility = visibility;
+    EXPECT_NEAR(render(scene).film.radiance(0, 0).g, 7 * 0.4 / pi, 1e-6);  // in float
+  }
+}
+
 TEST(BeamsInScenes, with_an_image_are_refused_by_the_closed_form) {
   Scene scene = beam_in_a_box();
   scene.textures = {ramp({255, 255, 255})};

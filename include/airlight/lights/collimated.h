@@ -28,10 +28,11 @@ struct Collimated {
   /// Unit vector towards the light.
   Vec3<double> toward() const noexcept { return -direction; }
 
-  /// How far it is from a point back to the start plane.  [m]
+  /// How far it is from a point back to the start plane; 0 before it, where rounding or a step off
+  /// a surface can put a point of the beam.  [m]
   template <Real F>
   F reach(Vec3<F> from) const noexcept {
-    return dot(from - Vec3<F>(position), Vec3<F>(direction));
+    return max(dot(from - Vec3<F>(position), Vec3<F>(direction)), F(0));
   }
 
   /// Where a point lies in the cross-section's coordinates.  [m]
