@@ -28,7 +28,7 @@ void with_medium_ray(std::span<const Medium> media, const CameraRay<F>& camera,
 /// the outcome. Ask `estimator.unsupported(medium, light)` first. Several media must be boxes or
 /// convex polyhedra that do not overlap, as many as `Joined::fits`; of more, only the first ones
 /// are seen.  [W/(m² sr)]
-template <Real F, class L, AnswersVisibility<F> W>
+template <Real F, ParallelLight L, AnswersVisibility<F> W>
 Estimate<F> in_scatter(const Sampled& estimator, std::span<const Medium> media, const L& light,
                        const CameraRay<F>& camera, std::uint32_t samples, const Sampler<F>& sampler,
                        const W& world, int light_index = 0) noexcept {
@@ -51,7 +51,7 @@ Estimate<F> in_scatter(const Sampled& estimator, std::span<const Medium> media, 
 
 /// The same in closed form, exact. `world` tells which parts of the ray are lit; `Unshadowed{}`
 /// says all.  [W/(m² sr)]
-template <class L, class W>
+template <ParallelLight L, class W>
 Rgb<double> in_scatter(const ClosedForm& estimator, std::span<const Medium> media, const L& light,
                        const CameraRay<double>& camera, const W& world,
                        int light_index = 0) noexcept {

@@ -9,6 +9,6 @@ namespace airlight::inline AIRLIGHT_ISA {
 /// Every kind of light there is. To add one: its file in lights/ and its name here.
 using Lights = std::variant<Directional, Collimated>;
 
-static_assert(Light<Directional> && Light<Collimated>);
+static_assert(ParallelLight<Directional> && ParallelLight<Collimated>);
 
 }  // namespace airlight::inline AIRLIGHT_ISA

@@ -11,9 +11,9 @@
 
 namespace airlight {
 
-/// Whether a light's samples can be anywhere on a ray, so that a path may go on from them.
+/// Whether a path may go on from a light's samples.
 inline bool paths_go_on_from(const Lights& light) noexcept {
-  return std::holds_alternative<Directional>(light);
+  return std::visit([](const Light auto& l) { return l.everywhere; }, light);
 }
 
 /// How light that scatters more than once is followed.

@@ -22,10 +22,9 @@ std::uint32_t noise_seed(const RenderSettings& settings) {
 }
 
 bool has_disc(const Scene& scene) {
-  for (const Lights& light : scene.lights)
-    if (const auto* sun = std::get_if<Directional>(&light))
-      if (sun->angular_diameter > 0) return true;
-  return false;
+  return std::ranges::any_of(scene.lights, [](const Lights& light) {
+    return std::visit([](const ParallelLight auto& l) { return l.angular_diameter > 0; }, light);
+  });
 }
 
 bool all_opaque(const Scene& scene) {

@@ -20,7 +20,7 @@ struct ClosedForm {
     return nullptr;
   }
 
-  template <int channels, class Space, class L, class W>
+  template <int channels, class Space, ParallelLight L, class W>
   void add(const Medium& medium, const Space& space, const L& light, int light_index,
            const MediumRay<double>& whole_ray, SampleRange samples, bool halve_by_ray,
            const W& world, Halves<double>& sums) const noexcept {

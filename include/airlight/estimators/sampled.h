@@ -113,7 +113,7 @@ struct Sampled {
 
   /// Where light comes from for a camera ray: a disc gives every ray a direction of its own, for
   /// which all forms are exact.
-  template <Real F, class L, DrawsPoints<F> Points>
+  template <Real F, ParallelLight L, DrawsPoints<F> Points>
   static Vec3<F> toward(const L& light, int light_index, std::uint32_t ray,
                         const Points& sampler) noexcept {
     const Vec3<F> centre(light.toward());
@@ -124,7 +124,7 @@ struct Sampled {
 
   /// What a metre of the medium scatters, but for a factor that all channels share: it decides
   /// between them.
-  template <int channels, class Space, Real F, class L>
+  template <int channels, class Space, Real F, ParallelLight L>
   Channels<F, channels> carried(const Medium& medium, const L& light,
                                 const Rgb<F>& dimmed) const noexcept {
     const Rgb<double> strength =
@@ -136,7 +136,7 @@ struct Sampled {
 
   /// The in-scatter of a ray if nothing stood in the light's way, as the mean of its channels: a
   /// weight to pick lights by.  [W/(m² sr)]
-  template <int channels, Real F, class Space, class L, DrawsPoints<F> Points>
+  template <int channels, Real F, class Space, ParallelLight L, DrawsPoints<F> Points>
   static F unoccluded(const Medium& medium, const Space& space, const L& light, int light_index,
                       const MediumRay<F>& whole_ray, const Points& sampler) noexcept {
     const auto lit = lit_part(light, medium, space, whole_ray);
@@ -154,7 +154,7 @@ struct Sampled {
   /// Adds the samples of one camera ray for one light: all of them or, with a share, those that the
   /// light gets. `channels` is 1 for a grey medium and 3 otherwise; `watch` is told of every
   /// sample.
-  template <int channels, Real F, class Space, class L, DrawsPoints<F> Points,
+  template <int channels, Real F, class Space, ParallelLight L, DrawsPoints<F> Points,
             AnswersVisibility<F> W, class Watch>
   void add(const Medium& medium, const Space& space, const L& light, int light_index,
            const MediumRay<F>& whole_ray, SampleRange samples, bool halve_by_ray,
@@ -244,7 +244,7 @@ struct Sampled {
         form);
   }
 
-  template <int channels, Real F, class Space, class L, DrawsPoints<F> Points,
+  template <int channels, Real F, class Space, ParallelLight L, DrawsPoints<F> Points,
             AnswersVisibility<F> W>
   void add(const Medium& medium, const Space& space, const L& light, int light_index,
            const MediumRay<F>& ray, SampleRange samples, bool halve_by_ray, const Points& sampler,

@@ -21,6 +21,7 @@ struct Collimated {
   static constexpr auto name = "collimated";
   static constexpr auto meaning =
       "a beam of parallel light with an outline and, if asked, a picture (a gobo)";
+  static constexpr bool everywhere = false;
 
   static constexpr double angular_diameter = 0;
   static constexpr double cap_height() noexcept { return 0; }

@@ -12,6 +12,7 @@ struct Directional {
 
   static constexpr auto name = "directional";
   static constexpr auto meaning = "light from far away: parallel, or from a disc such as the sun's";
+  static constexpr bool everywhere = true;
 
   /// Unit vector towards the light.
   Vec3<double> toward() const noexcept { return -direction; }
