@@ -1,8 +1,6 @@
 #pragma once
 #include <airlight/describe.h>
-#include <airlight/math/vec.h>
-
-#include "scene/rotation.h"
+#include <airlight/math/rotation.h>
 
 namespace airlight {
 

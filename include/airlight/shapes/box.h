@@ -1,4 +1,5 @@
 #pragma once
+#include "../math/rotation.h"
 #include "../shape.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
@@ -116,21 +117,13 @@ struct Box {
     }
   };
 
-  Space space() const noexcept;
+  Space space() const noexcept {
+    const Rotation turn(rotation);
+    const Vec3<double> half = (max - min) * 0.5;
+    return {
+        (min + max) * 0.5,
+        {turn.axis(0) * (1 / half.x), turn.axis(1) * (1 / half.y), turn.axis(2) * (1 / half.z)}};
+  }
 };
-
-inline Box::Space Box::space() const noexcept {
-  const auto turn = [](double degrees, double& s, double& c) {
-    s = std::sin(degrees * (pi / 180)), c = std::cos(degrees * (pi / 180));
-  };
-  double sx, cx, sy, cy, sz, cz;
-  turn(rotation.x, sx, cx), turn(rotation.y, sy, cy), turn(rotation.z, sz, cz);
-  const Vec3<double> half = (max - min) * 0.5;
-  // The rows of the inverse rotation are the columns of Rz Ry Rx: the axes of the box in the world.
-  const Vec3<double> x_axis{cy * cz, cy * sz, -sy};
-  const Vec3<double> y_axis{sx * sy * cz - cx * sz, sx * sy * sz + cx * cz, sx * cy};
-  const Vec3<double> z_axis{cx * sy * cz + sx * sz, cx * sy * sz - sx * cz, cx * cy};
-  return {(min + max) * 0.5, {x_axis * (1 / half.x), y_axis * (1 / half.y), z_axis * (1 / half.z)}};
-}
 
 }  // namespace airlight::inline AIRLIGHT_ISA

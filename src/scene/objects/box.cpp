@@ -1,8 +1,9 @@
 #include "scene/objects/box.h"
 
+#include <airlight/math/rotation.h>
+
 #include "scene/corners.h"
 #include "scene/objects/build.h"
-#include "scene/rotation.h"
 
 namespace airlight {
 

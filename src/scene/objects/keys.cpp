@@ -1,8 +1,9 @@
 #include "scene/objects/keys.h"
 
+#include <airlight/math/rotation.h>
+
 #include "scene/models/transparent_texels.h"
 #include "scene/named_texture.h"
-#include "scene/rotation.h"
 
 namespace airlight {
 namespace {

@@ -1,9 +1,10 @@
 #include "scene/objects/tree.h"
 
+#include <airlight/math/rotation.h>
+
 #include "scene/dice.h"
 #include "scene/direction.h"
 #include "scene/objects/build.h"
-#include "scene/rotation.h"
 
 namespace airlight {
 namespace {
