@@ -405,8 +405,6 @@ TYPED_TEST(EveryWay, finds_nothing_in_an_empty_scene) {
   const auto rays = any_rays(random, 20);
   for (const auto& light : transmit<TypeParam>(world, rays)) EXPECT_EQ(light, Rgb<double>(1.));
   for (const auto& hit : closest<TypeParam>(world, rays)) EXPECT_FALSE(hit.found);
-  EXPECT_TRUE(world.bounds().empty());
-  EXPECT_FALSE(world.filters());
 }
 
 TYPED_TEST(EveryWay, multiplies_tints_in_any_order) {
@@ -423,7 +421,6 @@ TYPED_TEST(EveryWay, multiplies_tints_in_any_order) {
     for (std::size_t i = 0; i < order.size(); ++i)
       scene.objects.push_back(pane({0, 0, double(i)}, materials[std::size_t(order[i])]));
     const World world(scene, TypeParam::visibility);
-    EXPECT_TRUE(world.filters());
     // Five factors, each with two roundings; only the exact surfaces in double are in double
     // throughout.
     constexpr bool exact = std::same_as<F, double> && TypeParam::visibility == Visibility::analytic;
@@ -616,7 +613,6 @@ TYPED_TEST(EveryWay, does_not_see_what_does_nothing) {
   Scene scene;
   scene.objects = {pane({0, 0, 1}, glass(0, Rgb<double>(1.))), pane({0, 0, 0})};
   const World world(scene, TypeParam::visibility);
-  EXPECT_FALSE(world.filters());
   const Found hit = closest<TypeParam>(world, {{{0.3, 0.1, 2}, {0, 0, -1}}})[0];
   EXPECT_TRUE(hit.found);
   EXPECT_EQ(hit.object, 1);
@@ -658,7 +654,7 @@ TEST(World, reads_a_surface_as_the_mesh_says) {
   EXPECT_EQ(world.surface(0, 1, 0, 0.5f).normal, Vec3<float>(0, 0, 1));
 }
 
-TEST(World, does_not_look_up_textures_without_holes) {
+TEST(SurfaceFilter, does_not_look_up_textures_without_holes) {
   Scene scene;
   Texture texture;
   texture.width = texture.height = 1;
@@ -668,9 +664,9 @@ TEST(World, does_not_look_up_textures_without_holes) {
   material.opacity_texture = 0;
   material.opacity_from_alpha = true;
   scene.objects = {pane({0, 0, 0}, material)};
-  EXPECT_FALSE(World(scene, Visibility::embree).filters());
+  EXPECT_TRUE(SurfaceFilter(scene, scene.objects[0]).is_opaque());
   scene.objects[0].material.opacity_from_alpha = false;
-  EXPECT_TRUE(World(scene, Visibility::embree).filters());
+  EXPECT_FALSE(SurfaceFilter(scene, scene.objects[0]).is_opaque());
 }
 
 TEST(FlushToZero, lasts_as_long_as_it_lives) {
@@ -680,14 +676,6 @@ TEST(FlushToZero, lasts_as_long_as_it_lives) {
     EXPECT_EQ(tiny * 0.1f, 0);
   }
   EXPECT_GT(tiny * 0.1f, 0);
-}
-
-TEST(World, knows_its_bounds) {
-  Scene scene;
-  scene.objects = {pane({0, 3, 0}), sphere({5, 0, -1}, 2)};
-  const Bounds bounds = World(scene, Visibility::analytic).bounds();
-  EXPECT_EQ(bounds.low, Vec3<double>(-1, -2, -3));
-  EXPECT_EQ(bounds.high, Vec3<double>(7, 4, 1));
 }
 
 // Whatever their number: a copy of a list has no more room than elements.

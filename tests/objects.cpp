@@ -8,6 +8,7 @@
 #include <set>
 
 #include "error.h"
+#include "scene/bounds.h"
 #include "scene/described.h"
 #include "scene/load_scene.h"
 #include "scene/look_around.h"
@@ -144,6 +145,18 @@ TEST(Box, shows_its_front_outside) {
   const auto seen = look_around(objects_of("type = \"box\"\n"), {{0, 0, 0}})[0];
   EXPECT_EQ(seen.enclosed(), 0);
   EXPECT_EQ(seen.inside_out(), 1);
+}
+
+TEST(Bounds, lie_around_all_surfaces) {
+  EXPECT_TRUE(bounds_of({}).empty());
+  Mesh mesh;
+  for (const auto& p : {Vec3<float>(9, 9, 9), {0, 3, 0}, {1, 4, 0}, {-1, 3, 1}})
+    mesh.positions.push_back(p);
+  mesh.triangles = {{1, 2, 3}};  // the first vertex is in none
+  const Bounds all = bounds_of({{"", mesh, {}}, {"", Sphere{{5, 0, -1}, 2}, {}}});
+  EXPECT_FALSE(all.empty());
+  EXPECT_EQ(all.min, Vec3<double>(-1, -2, -3));
+  EXPECT_EQ(all.max, Vec3<double>(7, 4, 1));
 }
 
 TEST(Wall, has_as_many_openings_as_asked) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "image/atomic_file.h"
+#include "scene/bounds.h"
 #include "scene/load_scene.h"
 #include "scene/look_around.h"
 #include "scene/objects/build.h"

@@ -58,8 +58,8 @@ TEST(Summary, counts) {
   EXPECT_EQ(s.objects, 1u);
   EXPECT_EQ(s.triangles, 12u);
   EXPECT_EQ(s.spheres, 0u);
-  EXPECT_DOUBLE_EQ(s.bounds.low.z, -2);
-  EXPECT_NEAR(s.bounds.high.y, -0.9, 1e-7) << "meshes are kept in float";
+  EXPECT_DOUBLE_EQ(s.bounds.min.z, -2);
+  EXPECT_NEAR(s.bounds.max.y, -0.9, 1e-7) << "meshes are kept in float";
   EXPECT_GT(s.memory.geometry, 12u * 12u);
   EXPECT_EQ(s.memory.film % 5000, 0u);
 }

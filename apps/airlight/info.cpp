@@ -49,7 +49,7 @@ void print(const airlight::Scene& scene, const Summary& summary) {
                scene.background_image.pixels.empty() ? "the background, no picture,"
                                                      : "the background's picture");
   if (!summary.bounds.empty())
-    fmt::print("bounds     {} to {} m\n", shown(summary.bounds.low), shown(summary.bounds.high));
+    fmt::print("bounds     {} to {} m\n", shown(summary.bounds.min), shown(summary.bounds.max));
   fmt::print(
       "camera     at {} looking at {}, vertical field of view {:.4g} degrees, {} x {} pixels\n",
       shown(scene.camera.position), shown(scene.camera.target), scene.camera.fov,

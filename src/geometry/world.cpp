@@ -24,12 +24,7 @@ World::Surfaces::Surfaces(const Scene& scene, Visibility visibility,
 }
 
 World::World(const Scene& scene, Visibility visibility)
-    : scene_(&scene),
-      bounds_(bounds_of(scene)),
-      surfaces_(filters_of(scene)),
-      filters_(std::ranges::any_of(
-          surfaces_, [](const SurfaceFilter& s) { return !s.is_opaque() && !s.is_clear(); })),
-      all_(scene, visibility, surfaces_, Among::all) {
+    : scene_(&scene), surfaces_(filters_of(scene)), all_(scene, visibility, surfaces_, Among::all) {
   const auto holdouts = std::ranges::count(scene.objects, true, &Object::holdout);
   if (holdouts > 0 && holdouts < std::ssize(scene.objects))
     holdouts_.emplace(scene, visibility, surfaces_, Among::holdouts);

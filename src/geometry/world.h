@@ -4,7 +4,6 @@
 
 #include "among.h"
 #include "beam_image.h"
-#include "bounds.h"
 #include "embree_surfaces.h"
 #include "exact_surfaces.h"
 #include "hit.h"
@@ -58,14 +57,8 @@ class World {
   SurfacePoint surface(std::uint32_t object, std::uint32_t primitive, float u,
                        float v) const noexcept;
 
-  /// Whether any surface lets light through.
-  bool filters() const noexcept { return filters_; }
-
   /// The Embree scene itself, for measuring against it; null for analytic visibility.
   RTCScene embree() const noexcept { return all_.embree ? all_.embree->handle() : nullptr; }
-
-  /// Around all objects.
-  const Bounds& bounds() const noexcept { return bounds_; }
 
  private:
   /// Some of the objects.
@@ -82,9 +75,7 @@ class World {
                   Mask<F> active, Bundle bundle) const noexcept;
 
   const Scene* scene_;
-  Bounds bounds_;
   std::vector<SurfaceFilter> surfaces_;  ///< one an object; a move leaves them where they are
-  bool filters_;
   Surfaces all_;
   std::optional<Surfaces> holdouts_;  ///< where there are others besides
 };

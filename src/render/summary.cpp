@@ -174,7 +174,7 @@ void count(const Scene& scene, Summary& result) {
   for (const Texture& texture : scene.textures) result.memory.textures += texture.rgba.size();
   result.memory.textures += std::span(scene.background_image.pixels).size_bytes();
   result.memory.hierarchy = hierarchy_bytes_a_triangle * result.triangles;
-  result.bounds = bounds_of(scene);
+  result.bounds = bounds_of(scene.objects);
 }
 
 void warn_of_medium(const Medium& medium, const MediumSummary& fog,

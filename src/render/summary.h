@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/bounds.h"
 #include "render/film.h"
+#include "scene/bounds.h"
 #include "scene/scene.h"
 
 namespace airlight {

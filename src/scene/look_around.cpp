@@ -191,26 +191,6 @@ bool is_in_the_way(const Sphere& sphere, Vec3<float> from, Vec3<float> d) {
 
 }  // namespace
 
-Bounds bounds_of(const std::vector<Object>& objects) {
-  Bounds bounds;
-  const auto include = [&](Vec3<double> low, Vec3<double> high) {
-    bounds.min = {std::min(bounds.min.x, low.x), std::min(bounds.min.y, low.y),
-                  std::min(bounds.min.z, low.z)};
-    bounds.max = {std::max(bounds.max.x, high.x), std::max(bounds.max.y, high.y),
-                  std::max(bounds.max.z, high.z)};
-  };
-  for (const Object& object : objects) {
-    if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
-      for (const auto& p : mesh->positions) include(Vec3<double>(p), Vec3<double>(p));
-    } else {
-      const Sphere& sphere = std::get<Sphere>(object.geometry);
-      const Vec3<double> r{sphere.radius, sphere.radius, sphere.radius};
-      include(sphere.centre - r, sphere.centre + r);
-    }
-  }
-  return bounds;
-}
-
 Vec3<double> Panorama::direction(std::size_t i) {
   const Directions& d = all_directions();
   return {d.x[i], d.y[i], d.z[i]};

@@ -6,17 +6,6 @@
 
 namespace airlight {
 
-/// The box along the axes around something; empty if min lies above max.
-struct Bounds {
-  Vec3<double> min{far_away, far_away, far_away};
-  Vec3<double> max{-far_away, -far_away, -far_away};
-
-  Vec3<double> centre() const { return (min + max) * 0.5; }
-  Vec3<double> size() const { return max - min; }
-};
-
-Bounds bounds_of(const std::vector<Object>& objects);
-
 /// What is seen from a point in directions that are spread evenly around, not far above or below
 /// the horizon, through everything that lets light pass.
 struct Panorama {

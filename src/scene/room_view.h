@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "scene/bounds.h"
 #include "scene/look_around.h"
 
 namespace airlight {

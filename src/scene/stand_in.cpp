@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scene/bounds.h"
 #include "scene/direction.h"
 #include "scene/look_around.h"
 #include "scene/room_view.h"

@@ -1,12 +1,10 @@
-#include "bounds.h"
-
-#include "scene/scene.h"
+#include "scene/bounds.h"
 
 namespace airlight {
 
-Bounds bounds_of(const Scene& scene) {
+Bounds bounds_of(const std::vector<Object>& objects) {
   Bounds bounds;
-  for (const Object& object : scene.objects) {
+  for (const Object& object : objects) {
     if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
       for (const auto& triangle : mesh->triangles)
         for (const std::uint32_t vertex : triangle)
