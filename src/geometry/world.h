@@ -28,6 +28,10 @@ struct SurfacePoint {
 /// the surface they start on: one that leaves a surface starts a little above it.
 class World {
  public:
+  /// How far above a surface such a ray starts, over |x| + |y| + |z| of the point and the distance
+  /// from which it was found: single precision knows points no better far from the origin.
+  static constexpr double lift = 2e-5;
+
   /// Builds what answers the rays. The scene must outlive the World and must not change: meshes are
   /// shared with it. Throws Error if memory does not suffice.
   World(const Scene& scene, Visibility visibility);

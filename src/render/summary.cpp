@@ -193,6 +193,22 @@ void warn_of_medium(const Medium& medium, const MediumSummary& fog,
     warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
 }
 
+/// Rays start above surfaces by what single precision takes: more than a hundredth of all objects
+/// is no small part of a room any more.
+void warn_of_distance(const Scene& scene, std::vector<std::string>& warnings) {
+  const Bounds bounds = bounds_of(scene.objects);
+  if (bounds.empty()) return;
+  double distance = 0;
+  for (int k = 0; k < 3; ++k)
+    distance += std::max(std::abs(bounds.min[k]), std::abs(bounds.max[k]));
+  const double lift = World::lift * distance, size = length(bounds.size());
+  if (lift > size / 100)
+    warnings.push_back(
+        fmt::format("the objects are {:.3g} m across and so far from the origin that rays which "
+                    "leave a surface start up to {:.2g} m above it; move the scene to the origin",
+                    size, lift));
+}
+
 /// How far ahead of the camera, along the middle of the picture, fog begins; nothing if nowhere.
 std::optional<double> fog_ahead(const std::vector<MediumSummary>& media) {
   std::optional<double> ahead;
@@ -236,6 +252,7 @@ std::vector<std::string> warnings_before(const Scene& scene) {
   std::vector<std::string> warnings;
   const std::vector<MediumSummary> media = summaries_of(scene);
   for (std::size_t i = 0; i < media.size(); ++i) warn_of_medium(scene.media[i], media[i], warnings);
+  warn_of_distance(scene, warnings);
   if (!media.empty() && !fog_ahead(media))
     warnings.push_back("the camera is outside the fog and does not look into it");
   if (media.empty())

@@ -73,8 +73,7 @@ class SurfaceLight {
     c.filter = Rgb<F>(at(9), at(10), at(11));
     c.object = at(12);
     c.uncovered = at(13);
-    // The hit is known to a few roundings of its coordinates.
-    const F lift = F(2e-5) * (abs(c.point.x) + abs(c.point.y) + abs(c.point.z) + hit.t);
+    const F lift = F(World::lift) * (abs(c.point.x) + abs(c.point.y) + abs(c.point.z) + hit.t);
     c.above = c.point + c.geometric * lift;
     return c;
   }
