@@ -117,8 +117,8 @@ StandIn::StandIn(const Model& model, const std::string& file) {
   assumed_.push_back({{"media.0.shape"},
                       fmt::format("fog from {} to {}", text(view.fog.min), text(view.fog.max))});
   assumed_.push_back({{"background", "ambient"}, "light of the sky"});
-  rest_ =
-      fog_table(view.fog) + fmt::format("[[objects]]\ntype = \"mesh\"\nfile = '''{}'''\n", file);
+  rest_ = fog_table(view.fog) +
+          fmt::format("[[objects]]\ntype = \"mesh\"\nfile = {}\n", toml_text(file));
 }
 
 std::string StandIn::toml(const Model& now) const {
