@@ -13,6 +13,7 @@
 
 #include "error.h"
 #include "image/input.h"
+#include "render/checkpoint_keeper.h"
 #include "render/render.h"
 #include "scene/load_scene.h"
 #include "support/program.h"
@@ -189,6 +190,36 @@ TEST(Checkpoint, waits_for_no_more_than_128_samples_of_a_tile) {
   for (std::size_t i = 1; i < fractions.size(); ++i)  // of its only tile
     EXPECT_LE(fractions[i] - fractions[i - 1], 128. / 1024);
   EXPECT_EQ(fractions.back(), 1);
+}
+
+TEST(CheckpointKeeper, tells_whatever_keeps_it_from_writing) {
+  const Folder folder;
+  const Scene scene = scene_with({"render.spp=1"});
+  const Film film = Renderer(scene).render(scene.render).film;
+  std::atomic<int> failures = 0;
+  std::string told;
+  const auto on_failure = [&](const Error& error) {
+    if (failures++ == 0) told = error.what();
+  };
+  CheckpointKeeper keeper({.file = folder / "a.ckpt", .every = 0.01, .on_failure = on_failure},
+                          film, {}, []() -> Origin { throw std::bad_alloc(); });
+  EXPECT_TRUE(wait_for([&] { return failures > 0; }));  // by the keeper's own thread
+  EXPECT_FALSE(keeper.finish());
+  EXPECT_EQ(told, folder / "a.ckpt" + ": cannot be written: std::bad_alloc");
+  EXPECT_THAT(folder.names(), ElementsAre());
+}
+
+TEST(Checkpoint, stays_whole_where_a_caller_ends_the_render_by_an_exception) {
+  const Folder folder;
+  const Scene scene = scene_with({"render.spp=64", "render.threads=2"});
+  RenderControl control;
+  control.checkpoint = {.file = folder / "a.ckpt", .every = 0.01, .on_failure = {}};
+  control.on_progress = [&](const Progress&) {
+    if (wait_for([&] { return std::filesystem::exists(folder / "a.ckpt"); }))
+      throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(Renderer(scene).render(scene.render, control), std::runtime_error);
+  EXPECT_NO_THROW(read_checkpoint(folder / "a.ckpt"));
 }
 
 TEST(FairMutex, lets_who_waits_come_before_who_let_it_go) {

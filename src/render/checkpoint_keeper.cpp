@@ -29,13 +29,18 @@ bool CheckpointKeeper::finish() {
 }
 
 bool CheckpointKeeper::write() {
+  const auto fail = [this](const Error& error) {
+    if (plan_.on_failure && !std::exchange(told_, true)) plan_.on_failure(error);
+    return false;
+  };
   try {
     write_checkpoint(plan_.file, film_, origin_(), locks_);
     told_ = false;
     return true;
   } catch (const Error& error) {
-    if (plan_.on_failure && !std::exchange(told_, true)) plan_.on_failure(error);
-    return false;
+    return fail(error);
+  } catch (const std::exception& error) {  // such as want of memory: nobody is above this thread
+    return fail(Error(fmt::format("{}: cannot be written: {}", plan_.file.string(), error.what())));
   }
 }
 

@@ -13,6 +13,7 @@ struct CheckpointPlan {
   bool resume = false;  ///< goes on with what the file holds, if it is there
   /// Told of a file that could not be written, by another thread but never beside on_progress; the
   /// render goes on. Told again only if it could be written in between, and at the end.
+  /// Must not throw.
   std::function<void(const Error&)> on_failure;
 };
 

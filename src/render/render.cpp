@@ -112,10 +112,10 @@ Rendered Renderer::render(const RenderSettings& settings, const RenderControl& c
 
   /// Gives a tile more samples.
   const auto add_samples = [&](int index, std::uint32_t added) {
-    const FlushToZero flush;
     std::uint32_t& done = run.counts[std::size_t(index)];
     Tile tile{film.tile(index), {run.first + done, added}, film};
     {
+      const FlushToZero flush;  // not while a caller is told of it
       const std::scoped_lock lock(tile_locks[std::size_t(index)]);
       prepared.kernel.render(prepared.frame, tile);
       done += added;

@@ -24,9 +24,10 @@ struct RenderControl {
   double time_limit = 0;          ///< stops after this time with what is done; 0: no limit  [s]
   bool short_passes = false;      ///< of few samples a pixel, so that previews come often
   std::stop_token stop;           ///< stops with what is done
-  std::function<void(const Progress&)> on_progress;  ///< called from workers, one at a time
-  std::function<void(const Film&, const Progress&)>
-      on_pass;                               ///< called when every pixel has more samples
+  /// Called from workers, one at a time. What it throws ends the render and is thrown by it.
+  std::function<void(const Progress&)> on_progress;
+  /// Called when every pixel has more samples. The same holds for what it throws.
+  std::function<void(const Film&, const Progress&)> on_pass;
   std::optional<CheckpointPlan> checkpoint;  ///< where sums are kept, and where they begin
 };
 
