@@ -54,12 +54,13 @@ int allocations_of(const Scene& scene, int width, std::int64_t spp, InstructionS
 }
 
 TEST(Kernels, ask_for_memory_by_the_tile_not_by_the_ray) {
-  for (const char* estimator : {"rewv", "mcds", "rm", "closed_form"})
+  for (const auto& [estimator, max_depth] : std::initializer_list<std::pair<const char*, int>>{
+           {"rewv", 1}, {"mcds", 1}, {"rm", 1}, {"closed_form", 1}, {"rewv", 3}, {"mcds", 3}})
     for (const Kernel* kernel : available_kernels()) {
-      const Scene scene = scene_of(estimator, 1);
+      const Scene scene = scene_of(estimator, max_depth);
       EXPECT_EQ(allocations_of(scene, 16, 64, kernel->isa),
                 allocations_of(scene, 1, 1, kernel->isa))
-          << estimator << ", " << kernel->name;
+          << estimator << " to depth " << max_depth << ", " << kernel->name;
     }
 }
 

@@ -79,6 +79,7 @@ class PathKernel {
         rows_(std::size_t(frame.layout.sums() + FilmLayout::added + frame.layout.features() -
                           frame.layout.holdouts())),
         features_(std::size_t(tile.rect.width * tile.rect.height * frame.layout.features())) {
+    first_kept_.reserve(std::size_t(tile.rect.width * tile.rect.height));
     for_each_pixel([&](const FilmPixels& film) {
       const bool untouched = film.samples[0] + film.samples[film_block::pixels] == 0;
       first_kept_.push_back(untouched ? std::numeric_limits<std::uint32_t>::max() : 0);
