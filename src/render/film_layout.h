@@ -37,7 +37,7 @@ constexpr int index(int x, int y) noexcept {
 
 /// Which numbers a film keeps of a pixel, and where: each is a row of 16 in every block. Sums of
 /// radiance are kept in double; in float what describes the picture, what tells its error, and what
-/// stands in quotients. Floats are added in runs of at most a pass.
+/// stands in quotients. Floats are added in runs of the samples that a tile gets at a time.
 ///
 ///     double, for each light group:  plain, analytic, occluded, unoccluded (as used), surface; RGB
 ///             then, of holdouts:     plate
