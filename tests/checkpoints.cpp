@@ -399,6 +399,17 @@ TEST(Traits, tell_textures_apart) {
   EXPECT_EQ(difference(traits(other), traits(other)), "");
 }
 
+TEST(Traits, tell_whether_a_background_is_shown) {
+  const auto traits = [](const std::string& background, bool is_seen) {
+    Scene scene = scene_with({"background=" + background});
+    scene.background_is_seen = is_seen;
+    return traits_of(scene, scene.render);
+  };
+  EXPECT_EQ(difference(traits("0.1", true), traits("0.1", false)),
+            "what is behind is shown, not left out");
+  EXPECT_EQ(difference(traits("0", true), traits("0", false)), "");
+}
+
 /// Checkpoints of ranges of samples: (seed, first, count).
 std::string part(const Folder& folder, int seed, int first, int count) {
   const std::string name = fmt::format("{}-{}-{}.ckpt", seed, first, count);
@@ -516,6 +527,16 @@ void expect_refused(const Outcome& outcome, const std::string& part) {
   EXPECT_THAT(outcome.err, HasSubstr(part));
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
   EXPECT_EQ(outcome.out, "");
+}
+
+TEST(Merge, writes_no_alpha_of_a_picture_with_a_background) {
+  const Folder folder;
+  for (const char* background : {"0", "0.1"})
+    render(scene_with({std::string("background=") + background}), folder / background);
+  EXPECT_EQ(run({"merge", folder / "0", "--alpha", "-o", folder / "a.exr"}).status, 0);
+  expect_refused(run({"merge", folder / "0.1", "--alpha", "-o", folder / "b.exr"}),
+                 "/0.1: holds a background, which --alpha cannot take out; accepted: ");
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
 }
 
 TEST(Program, goes_on_with_a_render_and_merges_its_parts) {

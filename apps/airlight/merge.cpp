@@ -60,6 +60,10 @@ int merge(Flags& flags) {
   flags.outputs.check(kept);
   for (const auto& file : kept) airlight::check_writable(file);
   const Checkpoint sum = sum_of(flags.files);
+  if (flags.alpha && airlight::value_of(sum.origin.traits, airlight::what_is_behind) != "left out")
+    throw Error(flags.files.at(0).string() +
+                ": holds a background, which --alpha cannot take out; accepted: renders that were "
+                "made with --alpha");
   const airlight::Film& film = sum.film;
   airlight::Picture picture = film.picture();
   if (flags.alpha) add_alpha(picture);

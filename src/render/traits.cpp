@@ -143,10 +143,12 @@ Traits traits_of(const Scene& scene, const RenderSettings& settings) {
   const auto& [camera, resolution, background, background_image, background_is_seen, ambient,
                textures, objects, media, lights, light_groups, unused_settings, assumptions] =
       scene;
+  const bool has_background = !background_image.pixels.empty() || background != Rgb<double>();
   Traits traits = {
       {"image", fmt::format("{} x {}", resolution.width, resolution.height)},
       {"camera", hash_of(camera)},
-      {"background", hash_of(background, background_image, background_is_seen)},
+      {"background", hash_of(background, background_image)},
+      {what_is_behind, has_background && background_is_seen ? "shown" : "left out"},
       {"ambient", hash_of(ambient)},
       {"media", hash_of(media)},
       {"lights", hash_of(lights, light_groups)},

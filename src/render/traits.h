@@ -12,6 +12,10 @@ namespace airlight {
 /// mean. Threads and instruction set are no part of it: they change sums by rounding only.
 using Traits = std::vector<std::pair<std::string, std::string>>;
 
+/// The trait that tells whether a picture shows its background: "shown" or, where there is none,
+/// too, "left out".
+inline constexpr const char* what_is_behind = "what is behind";
+
 /// The traits of a render. Throws Error if the settings don't fit each other or the scene.
 Traits traits_of(const Scene& scene, const RenderSettings& settings);
 
