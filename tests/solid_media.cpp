@@ -419,6 +419,17 @@ TEST(ClosedMesh, is_refused_where_it_crosses_itself) {
                                     "and corners only"));
 }
 
+TEST(ClosedMesh, is_refused_where_it_is_folded_flat) {
+  TestMesh sheet;
+  sheet.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
+  EXPECT_EQ(refusal(sheet).substr(0, 7), "crosses");
+  TestMesh bow;  // a pyramid over a base that crosses itself
+  bow.points = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0.4, 0.5, 1}};
+  bow.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}};
+  EXPECT_EQ(refusal(bow).substr(0, 7), "crosses");
+}
+
 TEST(ClosedMesh, is_refused_where_shells_overlap_without_an_edge_through_a_triangle) {
   const TestMesh one = test::box_mesh({-1, -1, -1}, {1, 1, 1});
   const auto with = [&](Vec3<double> low, Vec3<double> high) {

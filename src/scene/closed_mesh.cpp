@@ -263,6 +263,29 @@ std::optional<Vec> crossing_of(const Soup& soup, std::size_t k, std::size_t l, c
   return at ? at : pierced_by(l, k, move);
 }
 
+/// Where two triangles that share an edge lie on each other. Needles, whose side is a matter of
+/// rounding, do not count.
+std::optional<Vec> fold_of(const Soup& soup, std::size_t k, std::size_t l) {
+  const Triangle &t = soup.triangles[k], &other = soup.triangles[l];
+  int own = 0, others = 0, count = 0;  // corners that the other has not
+  for (int i = 0; i < 3; ++i) {
+    if (std::ranges::find(other, t[std::size_t(i)]) == other.end()) own = i, ++count;
+    if (std::ranges::find(t, other[std::size_t(i)]) == t.end()) others = i;
+  }
+  if (count == 0) return soup.corner(k, 0);
+  if (count > 1) return std::nullopt;
+  const Vec a = soup.corner(k, own + 1), edge = soup.corner(k, own + 2) - a;
+  const Vec p = soup.corner(k, own) - a, q = soup.corner(l, others) - a;
+  const Vec left = cross(edge, p), right = cross(edge, q);
+  const auto is_needle = [&](const Vec& area, const Vec& side) {
+    return length(area) < 1e-6 * length(edge) * length(side);
+  };
+  if (is_needle(left, p) || is_needle(right, q) || !(dot(left, right) > 0) ||
+      length(cross(left, right)) > 1e-9 * length(left) * length(right))
+    return std::nullopt;
+  return a + edge * 0.5;
+}
+
 /// Looks for triangles that cross. Of shells that overlap face on face or edge on edge, no edge
 /// needs to pierce a triangle: such shells cross when one is moved a little, one way and the other,
 /// where shells that only touch come apart one way.
@@ -273,7 +296,8 @@ class Crossings {
 
   /// Throws Error if two triangles cross, or if with those seen before they tell that shells do.
   void see(std::size_t k, std::size_t l) {
-    auto at = crossing_of(soup_, k, l, Vec());
+    auto at = fold_of(soup_, k, l);
+    if (!at) at = crossing_of(soup_, k, l, Vec());
     const std::size_t a = soup_.components[k], b = soup_.components[l];
     if (!at && a != b) {
       const std::pair<std::size_t, std::size_t> shells = std::minmax(a, b);
