@@ -2,6 +2,7 @@
 
 #include "scene/animation.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -20,7 +21,9 @@ namespace airlight {
 namespace {
 
 using test::bytes_of, test::Folder, test::Outcome, test::run, test::write_bytes;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -672,6 +675,31 @@ TEST(Frames, are_refused_where_they_make_no_sense) {
   expect_refused(desk, desk.render("out.#.png", {"--frames", "4..3"}), "--frames 4..3: is empty");
   expect_refused(desk, desk.render("out.#.png", {"--frames", "0..3", "--preview", "1"}),
                  "--preview does not go with --frames");
+}
+
+TEST(SceneFile, finds_media_that_run_into_each_other_and_a_camera_at_its_target) {
+  const Folder folder;
+  const auto told = [&](const std::string& path, const std::string& values) {
+    write_bytes(folder / "film.toml",
+                fmt::format("[[media]]\nsigma_s = 1\nsigma_a = 0\n"
+                            "shape = {{type = \"box\", max = [0, 1, 1]}}\n"
+                            "[[media]]\nsigma_s = 2\nsigma_a = 0\n"
+                            "shape = {{type = \"box\", min = [0, -1, -1]}}\n"
+                            "[[animation]]\npath = \"{}\"\nframes = [0, 4]\nvalues = {}\n",
+                            path, values));
+    const SceneFile file(folder / "film.toml");
+    EXPECT_NO_THROW(file.check(0)) << path;
+    try {
+      file.check(4);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(told("media.1.shape.min.0", "[0, -0.5]"),
+              AllOf(HasSubstr("media hold two that overlap"), EndsWith("(at frame 4)")));
+  EXPECT_THAT(told("media.1.shape.min.0", "[0, 1.5]"), HasSubstr("inverted box"));
+  EXPECT_THAT(told("camera.position.2", "[5, 0]"), EndsWith("(at frame 4)"));
 }
 
 TEST(Frames, are_all_checked_before_the_first_is_rendered) {

@@ -97,7 +97,13 @@ Scene SceneFile::scene(std::int64_t frame) const {
 }
 
 void SceneFile::check(std::int64_t frame) const {
-  read_scene_document(content_->document(overrides_at(frame)).first);
+  const Value value = content_->document(overrides_at(frame)).first;
+  const SceneDocument document = read_scene_document(value);
+  try {
+    check_without_files(document, value);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{} (at frame {})", error.what(), frame));
+  }
 }
 
 std::vector<Override> SceneFile::overrides_at(std::int64_t frame) const {

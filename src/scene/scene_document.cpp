@@ -64,6 +64,18 @@ SceneDocument read_scene_document(const Value& value) {
   return document;
 }
 
+void check_without_files(const SceneDocument& document, const Value& value) {
+  const Cursor at(value);
+  check_camera(document.camera, at.at_or_here("camera"));
+  check(document.render, at.at_or_here("render"));
+  std::vector<Medium> media;
+  for (std::size_t i = 0; i < document.media.size(); ++i)
+    if (!std::holds_alternative<SolidDocument>(*document.media[i].shape))
+      media.push_back(document.media[i].medium(at.at_or_here("media").element(i), {}));
+  if (media.size() < document.media.size()) return;  // a mesh lies beside no other medium
+  if (const auto reason = cannot_be_joined(media)) at.at_or_here("media").complain(*reason);
+}
+
 Scene scene_of(const Value& value, const Files& files) {
   const Cursor at(value);
   const SceneDocument document = read_scene_document(value);

@@ -47,6 +47,10 @@ struct SceneDocument {
 /// Reads the text alone, no file that it names. Throws Error as `scene_of` does.
 SceneDocument read_scene_document(const Value& document);
 
+/// Throws Error for what is wrong with a document, beyond its values, and can be told without the
+/// files that it names: its camera, its settings, media that overlap.
+void check_without_files(const SceneDocument& document, const Value& value);
+
 /// What a document means. Throws Error, one line, for everything that cannot be accepted.
 Scene scene_of(const Value& document, const Files& files);
 
