@@ -65,13 +65,6 @@ struct Scene {
   }
 };
 
-struct Clear {
-  template <Real F>
-  Rgb<F> transmit(Vec3<F>, Vec3<F>, F, int, Mask<F>) const {
-    return Rgb<F>(F(1));
-  }
-};
-
 /// Lets through what comes from one half of the disc.
 struct HalfSky {
   Vec3<double> edge;
@@ -137,7 +130,7 @@ void is_unbiased(double diameter, double g, std::uint32_t rays, std::uint32_t sa
       orthonormal_basis(scene.light.toward(), edge, other);
       std::vector<double> whole, half;
       for (std::uint32_t seed = 0; seed < 300; ++seed) {
-        whole.push_back(pixel<F>(scene, plain, seed, rays, samples, Clear{}).plain.r);
+        whole.push_back(pixel<F>(scene, plain, seed, rays, samples, Unshadowed{}).plain.r);
         half.push_back(pixel<F>(scene, plain, seed, rays, samples, HalfSky{edge}).plain.r);
       }
       const double truth = scene.mean_over_disc(), half_truth = scene.mean_over_disc(&edge);
@@ -172,7 +165,8 @@ TEST(SunDisc, has_a_closed_form_for_each_of_its_directions) {
     std::vector<double> analytic;
     for (std::uint32_t seed = 0; seed < 800; ++seed)
       analytic.push_back(
-          pixel<double>(scene, Sampled{WholeVolume{}, Ratio{}}, seed, 64, 1, Clear{}).analytic.r);
+          pixel<double>(scene, Sampled{WholeVolume{}, Ratio{}}, seed, 64, 1, Unshadowed{})
+              .analytic.r);
     const double truth = scene.mean_over_disc();
     EXPECT_LT(std::abs(test::z_score(analytic, truth, 1e-5 * truth)), 4.5);
     EXPECT_LT(test::relative_standard_error(analytic), 5e-4);
