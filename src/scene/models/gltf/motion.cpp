@@ -79,8 +79,8 @@ Motion::Motion(const Document& document, std::vector<std::string>& remarks) {
   if (std::erase_if(channels_, twice) > 0)
     remarks.push_back("where several animations move the same node, the first does");
   if (left_out > 0)
-    remarks.push_back(
-        fmt::format("{} animations of other things than nodes are left out", left_out));
+    remarks.push_back(fmt::format("{} animation{} of other things than nodes left out", left_out,
+                                  left_out == 1 ? "" : "s"));
   for (const Channel& channel : channels_)
     at_rest_.emplace(channel.node, document.model.nodes[std::size_t(channel.node)]);
 }
