@@ -171,6 +171,15 @@ TEST(HenyeyGreenstein, is_the_formula_of_1941) {
     }
 }
 
+TEST(HenyeyGreenstein, is_finite_however_sharp_its_lobe) {
+  const double sharpest = std::nextafter(1., 0.);
+  for (const double g : {sharpest, -sharpest, 1 - 1e-13}) {
+    const double c = g > 0 ? 1 : -1;
+    EXPECT_LT(HenyeyGreenstein{g}(c), 1e40) << g;
+    EXPECT_LT(HenyeyGreenstein{g}(float(c)), 1e38f) << g;
+  }
+}
+
 TEST(HenyeyGreenstein, has_g_as_its_mean_cosine) {
   for (const double g : {-0.99, -0.5, -1e-3, -1e-5, 0., 1e-7, 1e-4, 1e-3, 0.5, 0.9, 0.99}) {
     const HenyeyGreenstein phase{g};

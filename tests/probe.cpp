@@ -210,5 +210,10 @@ TEST(Probe, refuses_a_pixel_outside_of_the_picture) {
     EXPECT_THROW(probe(scene, scene.render, x, y), Error);
 }
 
+TEST(Probe, refuses_more_samples_than_can_be_told) {
+  Scene scene = scene_with({"render.spp=1048577"});
+  EXPECT_THROW(probe(scene, scene.render, 0, 0), Error);
+}
+
 }  // namespace
 }  // namespace airlight

@@ -27,7 +27,8 @@ void with_medium_ray(std::span<const Medium> media, const CameraRay<F>& camera,
 /// of several lights, and average those of several rays of a pixel, before `radiance()` is asked of
 /// the outcome. Ask `estimator.unsupported(medium, light)` first. Several media must be boxes or
 /// convex polyhedra that do not overlap, as many as `Joined::fits`; of more, only the first ones
-/// are seen.  [W/(m² sr)]
+/// are seen. `light_index` tells lights apart: two of the same index share their random numbers.
+/// [W/(m² sr)]
 template <Real F, ParallelLight L, AnswersVisibility<F> W>
 Estimate<F> in_scatter(const Sampled& estimator, std::span<const Medium> media, const L& light,
                        const CameraRay<F>& camera, std::uint32_t samples, const Sampler<F>& sampler,

@@ -239,6 +239,8 @@ void probe_lights(const Frame& frame, const Sampler<double>& sampler,
   });
 }
 
+constexpr std::int64_t most_probed = 1 << 20;
+
 }  // namespace
 
 Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
@@ -250,6 +252,9 @@ Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y) {
   in_double.isa = InstructionSet::reference;
   in_double.max_depth = 1;
   check_settings(scene, settings);
+  if (settings.spp > most_probed)
+    throw Error(fmt::format("render.spp = {} are too many to tell one by one; accepted: up to {}",
+                            settings.spp, most_probed));
   const World world(scene, settings.visibility);
   const Prepared prepared = prepare(scene, world, in_double);
 

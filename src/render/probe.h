@@ -83,7 +83,7 @@ struct Probe {
 };
 
 /// Probes a pixel of the picture; x counts from the left, y from the top. Throws Error if it is not
-/// in the picture or where `render` would throw.
+/// in the picture, for more than 1048576 samples, or where `render` would throw.
 Probe probe(const Scene& scene, const RenderSettings& settings, int x, int y);
 
 }  // namespace airlight

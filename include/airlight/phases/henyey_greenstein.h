@@ -27,7 +27,8 @@ struct HenyeyGreenstein {
     const double a = g < 0 ? -g : g;
     const F toward = g < 0 ? F(1) + cos_theta : F(1) - cos_theta;
     const F d = fma(F(2 * a), max(toward, F(0)), F((1 - a) * (1 - a)));
-    return F((1 - a) * (1 + a) / (4 * pi)) / (d * sqrt(d));
+    // One after the other: d^{3/2} may be too small a number where the lobe is sharp.
+    return F((1 - a) * (1 + a) / (4 * pi)) / d / sqrt(d);
   }
 
   /// cos θ drawn from the phase function: its distribution function inverted, total on u in [0, 1].
