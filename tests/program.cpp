@@ -349,8 +349,8 @@ TEST(Render, stops_at_a_time_limit_and_writes_what_is_done) {
   EXPECT_EQ(read_image(desk / "a.pfm").width, 64);
 }
 
-TEST(Render, writes_what_is_done_on_control_c) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+TEST(Render, writes_what_is_done_when_it_is_told_to_end) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Desk desk;
     const Outcome outcome = desk.render(
         "a.pfm", with(endless, {"--preview", "0.1"}), {.during = [&](pid_t program) {

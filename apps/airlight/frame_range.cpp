@@ -11,8 +11,8 @@ FrameRange frame_range(const std::string& text) {
   if (first.size() != 1 || last.size() != 1 || first[0] < 0 || last[0] > most)
     throw airlight::Error(
         "--frames " + text +
-        ": are no frames; accepted: FIRST..LAST counted from 0, such as 0..47, or "
-        "one number");
+        ": are no frames; accepted: FIRST..LAST counted from 0 up to 16777216, such as 0..47, "
+        "or one number");
   if (last[0] < first[0])
     throw airlight::Error("--frames " + text + ": is empty; the last frame comes before the first");
   return {first[0], last[0]};

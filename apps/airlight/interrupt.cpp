@@ -17,7 +17,7 @@ struct End {
   bool is_ignored() const { return before.sa_handler == SIG_IGN; }
 };
 
-End ends[] = {{SIGINT}, {SIGTERM}};
+End ends[] = {{SIGINT}, {SIGTERM}, {SIGHUP}};
 
 }  // namespace
 

@@ -1,7 +1,8 @@
 #pragma once
 
-/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks for an orderly end and the second one
-/// ends the program at once. A signal that was ignored before stays ignored.
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or end of the terminal (SIGHUP) asks for an
+/// orderly end and the second one ends the program at once. A signal that was ignored before stays
+/// ignored.
 class Interrupt {
  public:
   Interrupt();

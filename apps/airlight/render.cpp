@@ -67,9 +67,9 @@ constexpr const char* examples = R"(Examples:
   airlight render scenes/destruction.toml --frames 0..47 -o wall.####.png --skip-existing
   airlight render fog.toml -o fog.exr --spp 65536 --checkpoint fog.ckpt --resume
 
-Ctrl-C ends a render and writes what is done (exit status 130); a second Ctrl-C ends it at once. Of a run of frames
-only whole ones are written, also where --time-limit ends it; with --skip-existing the same command goes on where a run
-ended. With --checkpoint and --resume the same command goes on in the middle of a picture, whatever ended it, or with
+Ctrl-C, SIGTERM or a terminal that closes ends a render and writes what is done (exit status 130, 143 or 129); a second
+one ends it at once. Of a run of frames only whole ones are written, also where --time-limit ends it; with
+--skip-existing the same command goes on where a run ended. With --checkpoint and --resume the same command goes on in the middle of a picture, whatever ended it, or with
 more --spp after its end. A picture of few, --spp up to --samples-per-ray, takes them through the pixels' centres: to go
 on beyond, give --samples-per-ray all, or begin it with --first-sample 0, which spreads its rays as those of a longer one.
 )";

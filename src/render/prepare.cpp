@@ -124,9 +124,11 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
     throw Error(
         "render.first_sample + render.spp is too large; accepted: up to 536870912 together");
   if (std::holds_alternative<ClosedForm>(estimator) && !all_opaque(scene))
-    throw Error(fmt::format(
-        "estimator {} cannot serve this scene: it knows the shadows of opaque objects only",
-        ClosedForm::name));
+    throw Error(
+        fmt::format("estimator {} cannot serve this scene: it knows the shadows of opaque objects "
+                    "only; accepted: "
+                    "objects without tint, opacity and cut-outs, or another estimator",
+                    ClosedForm::name));
   if (const Image& image = scene.background_image;
       !image.pixels.empty() && (image.channels != 3 || image.width != scene.resolution.width ||
                                 image.height != scene.resolution.height))
