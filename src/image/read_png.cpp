@@ -106,6 +106,15 @@ std::vector<float> linear_of_wide(const Decoder& decoder) {
   return table;
 }
 
+/// Where libpng shall write each row of RGBA codes.
+template <class Code>
+std::vector<png_bytep> rows_of(std::vector<Code>& rgba, std::size_t width) {
+  std::vector<png_bytep> rows;
+  for (std::size_t i = 0; i < rgba.size(); i += width * 4)
+    rows.push_back(reinterpret_cast<png_bytep>(rgba.data() + i));
+  return rows;
+}
+
 /// A picture of 16 bit codes. Libpng's own way to linear light takes sRGB for a power, which leaves
 /// a quarter of what is dark.
 Image wide_picture(const Encoded& encoded) {
@@ -116,9 +125,7 @@ Image wide_picture(const Encoded& encoded) {
   const auto height = png_get_image_height(decoder.png, decoder.info);
   check_size(encoded, width, height);
   std::vector<std::uint16_t> codes(std::size_t(width) * height * 4);
-  std::vector<png_bytep> rows(height);
-  for (std::size_t y = 0; y < height; ++y)
-    rows[y] = reinterpret_cast<png_bytep>(codes.data() + y * width * 4);
+  std::vector<png_bytep> rows = rows_of(codes, width);
   const std::vector<float> linear = linear_of_wide(decoder);
   if (!decoder.read_wide(rows.data())) fail_to_decode(encoded, source.error);
   Image image(int(width), int(height), 3);
@@ -168,8 +175,7 @@ Codes png_codes(const Encoded& encoded) {
   check_size(encoded, width, height);
   Codes codes{int(width), int(height), {}};
   codes.rgba.resize(std::size_t(width) * height * 4);
-  std::vector<png_bytep> rows(height);
-  for (std::size_t y = 0; y < height; ++y) rows[y] = codes.rgba.data() + y * width * 4;
+  std::vector<png_bytep> rows = rows_of(codes.rgba, width);
   if (!decoder.read_rgba(rows.data())) fail_to_decode(encoded, source.error);
   return codes;
 }
