@@ -69,9 +69,10 @@ constexpr const char* examples = R"(Examples:
 
 Ctrl-C, SIGTERM or a terminal that closes ends a render and writes what is done (exit status 130, 143 or 129); a second
 one ends it at once. Of a run of frames only whole ones are written, also where --time-limit ends it; with
---skip-existing the same command goes on where a run ended. With --checkpoint and --resume the same command goes on in the middle of a picture, whatever ended it, or with
-more --spp after its end. A picture of few, --spp up to --samples-per-ray, takes them through the pixels' centres: to go
-on beyond, give --samples-per-ray all, or begin it with --first-sample 0, which spreads its rays as those of a longer one.
+--skip-existing the same command goes on where a run ended. With --checkpoint and --resume the same command goes on in
+the middle of a picture, whatever ended it, or with more --spp after its end. A picture of few, --spp up to
+--samples-per-ray, takes them through the pixels' centres: to go on beyond, give --samples-per-ray all, or begin it with
+--first-sample 0, which spreads its rays as those of a longer one.
 )";
 
 std::optional<PixelRect> crop_of(const std::string& text) {

@@ -126,8 +126,7 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
   if (std::holds_alternative<ClosedForm>(estimator) && !all_opaque(scene))
     throw Error(
         fmt::format("estimator {} cannot serve this scene: it knows the shadows of opaque objects "
-                    "only; accepted: "
-                    "objects without tint, opacity and cut-outs, or another estimator",
+                    "only; accepted: opaque objects alone, or another estimator",
                     ClosedForm::name));
   if (const Image& image = scene.background_image;
       !image.pixels.empty() && (image.channels != 3 || image.width != scene.resolution.width ||
