@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "image/decoders.h"
 #include "image/srgb.h"
@@ -91,6 +92,16 @@ struct Decoder {
   }
 };
 
+/// Width and height of a picture of which nothing has been read yet.
+std::pair<png_uint_32, png_uint_32> read_header(const Encoded& encoded, const Source& source,
+                                                Decoder& decoder) {
+  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  const auto width = png_get_image_width(decoder.png, decoder.info);
+  const auto height = png_get_image_height(decoder.png, decoder.info);
+  check_size(encoded, width, height);
+  return {width, height};
+}
+
 /// Linear light of every 16 bit code: by sRGB's curve, unless the file tells a gamma that is not
 /// near it.
 std::vector<float> linear_of_wide(const Decoder& decoder) {
@@ -106,12 +117,12 @@ std::vector<float> linear_of_wide(const Decoder& decoder) {
   return table;
 }
 
-/// Where libpng shall write each row of RGBA codes.
+/// Where libpng shall write each row of so many codes.
 template <class Code>
-std::vector<png_bytep> rows_of(std::vector<Code>& rgba, std::size_t width) {
+std::vector<png_bytep> rows_of(std::vector<Code>& codes, std::size_t codes_a_row) {
   std::vector<png_bytep> rows;
-  for (std::size_t i = 0; i < rgba.size(); i += width * 4)
-    rows.push_back(reinterpret_cast<png_bytep>(rgba.data() + i));
+  for (std::size_t i = 0; i < codes.size(); i += codes_a_row)
+    rows.push_back(reinterpret_cast<png_bytep>(codes.data() + i));
   return rows;
 }
 
@@ -120,12 +131,9 @@ std::vector<png_bytep> rows_of(std::vector<Code>& rgba, std::size_t width) {
 Image wide_picture(const Encoded& encoded) {
   Source source{encoded.bytes, ""};
   Decoder decoder(source);
-  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
-  const auto width = png_get_image_width(decoder.png, decoder.info);
-  const auto height = png_get_image_height(decoder.png, decoder.info);
-  check_size(encoded, width, height);
+  const auto [width, height] = read_header(encoded, source, decoder);
   std::vector<std::uint16_t> codes(std::size_t(width) * height * 4);
-  std::vector<png_bytep> rows = rows_of(codes, width);
+  std::vector<png_bytep> rows = rows_of(codes, 4 * std::size_t(width));
   const std::vector<float> linear = linear_of_wide(decoder);
   if (!decoder.read_wide(rows.data())) fail_to_decode(encoded, source.error);
   Image image(int(width), int(height), 3);
@@ -169,13 +177,10 @@ Image decode_png(const Encoded& encoded) {
 Codes png_codes(const Encoded& encoded) {
   Source source{encoded.bytes, ""};
   Decoder decoder(source);
-  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
-  const auto width = png_get_image_width(decoder.png, decoder.info);
-  const auto height = png_get_image_height(decoder.png, decoder.info);
-  check_size(encoded, width, height);
+  const auto [width, height] = read_header(encoded, source, decoder);
   Codes codes{int(width), int(height), {}};
   codes.rgba.resize(std::size_t(width) * height * 4);
-  std::vector<png_bytep> rows = rows_of(codes.rgba, width);
+  std::vector<png_bytep> rows = rows_of(codes.rgba, 4 * std::size_t(width));
   if (!decoder.read_rgba(rows.data())) fail_to_decode(encoded, source.error);
   return codes;
 }
@@ -183,19 +188,14 @@ Codes png_codes(const Encoded& encoded) {
 Image decode_png_numbers(const Encoded& encoded) {
   Source source{encoded.bytes, ""};
   Decoder decoder(source);
-  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
+  const auto [width, height] = read_header(encoded, source, decoder);
   if (png_get_color_type(decoder.png, decoder.info) != PNG_COLOR_TYPE_GRAY)
     fail_to_decode(encoded, "it has colours; accepted: a grey PNG without alpha");
   // Libpng would write these as alpha, in rows twice as long.
   if (png_get_valid(decoder.png, decoder.info, PNG_INFO_tRNS) != 0)
     fail_to_decode(encoded, "it has a transparent grey; accepted: a grey PNG without alpha");
-  const auto width = png_get_image_width(decoder.png, decoder.info);
-  const auto height = png_get_image_height(decoder.png, decoder.info);
-  check_size(encoded, width, height);
   std::vector<std::uint16_t> codes(std::size_t(width) * height);
-  std::vector<png_bytep> rows(height);
-  for (std::size_t y = 0; y < height; ++y)
-    rows[y] = reinterpret_cast<png_bytep>(codes.data() + y * width);
+  std::vector<png_bytep> rows = rows_of(codes, width);
   // Libpng spreads fewer bits over all 16.
   const int bits = png_get_bit_depth(decoder.png, decoder.info);
   if (!decoder.read_grey(rows.data())) fail_to_decode(encoded, source.error);
