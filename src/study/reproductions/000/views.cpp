@@ -58,6 +58,15 @@ View in_the_light(int width) {
               width);
 }
 
+View ball_in_fog(const Configuration& configuration, int width) {
+  Scene scene = black_ball(configuration);
+  scene.render.visibility = Visibility::embree;
+  return view(fmt::format("The ball in fog of figure 6, {}", configuration.name), "ball",
+              fmt::format("Configuration {} of 000/fig6-single: a black ball in a cube of fog.",
+                          configuration.name),
+              std::move(scene), width);
+}
+
 View given_view(const Reproduced& out, int width) {
   Scene scene = load_scene(out.scene_file);
   const std::string name = out.scene_file.filename().string();

@@ -4,6 +4,7 @@
 
 #include "scene/scene.h"
 #include "study/reproduction.h"
+#include "study/reproductions/000/black_ball.h"
 
 namespace airlight::paper_000 {
 
@@ -24,6 +25,9 @@ View from_the_dark(int width);
 
 /// The sunroom beside its windows, in thicker fog: what is lit is near.
 View in_the_light(int width);
+
+/// The black ball in fog of figure 6, its shadow found by rays through Embree.
+View ball_in_fog(const Configuration& configuration, int width);
 
 /// The scene that the user gave.
 View given_view(const Reproduced& out, int width);
