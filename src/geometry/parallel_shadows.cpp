@@ -70,14 +70,19 @@ ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel, double
 }
 
 void ParallelShadows::add(const Sphere& sphere) {
-  const double before = start_ - dot(sphere.centre, travel_);
-  if (before <= 0) {
-    balls_.push_back({sphere.centre, sphere.radius});
-  } else if (before < sphere.radius) {
-    // Its cap beyond the plane shades what a ball in the plane as wide as the cap shades.
-    balls_.push_back({sphere.centre + travel_ * before,
-                      sqrt((sphere.radius - before) * (sphere.radius + before))});
+  const Ball ball{sphere.centre, sphere.radius};
+  const double before = start_ - dot(ball.centre, travel_);  // the plane, seen from the centre
+  if (before >= ball.radius) return;
+  if (before <= -ball.radius) {
+    balls_.push_back({ball});
+    return;
   }
+  // Light that starts in the sphere's section with the plane gets as far as the sphere's far side.
+  const double opening = sqrt((ball.radius - before) * (ball.radius + before));
+  // A cap is left of a sphere whose centre lies before the plane: it shades what a ball in the
+  // plane as wide as the cap shades.
+  const Ball left = before <= 0 ? ball : Ball{ball.centre + travel_ * before, opening};
+  balls_.push_back({left, ball, opening});
 }
 
 /// Cuts off what lies before the plane where light starts: a triangle or two remain, or none.
@@ -122,13 +127,29 @@ Interval<double> ParallelShadows::shaded(const Prism& prism, Vec3<double> origin
   return result;
 }
 
+/// Where the ray is inside the cylinder along the light.
+Interval<double> ParallelShadows::cylinder(Vec3<double> centre, double radius, Vec3<double> origin,
+                                           Vec3<double> direction) const {
+  const Vec3<double> q = origin - centre;
+  return within(q - travel_ * dot(q, travel_), direction - travel_ * dot(direction, travel_),
+                radius);
+}
+
 Interval<double> ParallelShadows::shaded(const Ball& ball, Vec3<double> origin,
                                          Vec3<double> direction) const {
   const Vec3<double> q = origin - ball.centre;
-  const double q_along = dot(q, travel_), d_along = dot(direction, travel_);
-  const Interval<double> cylinder =
-      within(q - travel_ * q_along, direction - travel_ * d_along, ball.radius);
-  return either(both(cylinder, at_least_zero(q_along, d_along)), within(q, direction, ball.radius));
+  const Interval<double> beyond = at_least_zero(dot(q, travel_), dot(direction, travel_));
+  return either(both(cylinder(ball.centre, ball.radius, origin, direction), beyond),
+                within(q, direction, ball.radius));
+}
+
+/// Where light that starts inside the sphere has not reached its far side.
+Interval<double> ParallelShadows::hollow(const BallShadow& shadow, Vec3<double> origin,
+                                         Vec3<double> direction) const {
+  const auto& [centre, radius] = shadow.inside;
+  if (!(shadow.opening > 0)) return nothing;
+  return both(within(origin - centre, direction, radius),
+              cylinder(centre, shadow.opening, origin, direction));
 }
 
 std::span<const Interval<double>> ParallelShadows::lit(
@@ -140,7 +161,16 @@ std::span<const Interval<double>> ParallelShadows::lit(
     if (!empty(part)) room[count++] = part;
   };
   for (const Prism& prism : prisms_) shade(shaded(prism, origin, direction));
-  for (const Ball& ball : balls_) shade(shaded(ball, origin, direction));
+  for (const BallShadow& ball : balls_) {
+    const Interval<double> shadow = shaded(ball.ball, origin, direction);
+    const Interval<double> lit = hollow(ball, origin, direction);
+    if (empty(lit)) {
+      shade(shadow);
+    } else {
+      shade({shadow.t_enter, min(shadow.t_exit, lit.t_enter)});
+      shade({max(shadow.t_enter, lit.t_exit), shadow.t_exit});
+    }
+  }
   const std::span<Interval<double>> shadows = room.first(count);
   std::ranges::sort(shadows, {}, &Interval<double>::t_enter);
 

@@ -11,7 +11,7 @@ struct Sphere;
 
 /// The shadows that opaque objects cast in light that travels the same way everywhere, exactly: a
 /// triangle shades the prism behind it, a sphere itself and half a cylinder. A ray meets each of
-/// them in one interval.
+/// them in one interval; light that starts inside a sphere lights a hollow of it, which leaves two.
 class ParallelShadows {
  public:
   /// `travel` is the unit direction in which the light goes. It may start at a plane travel · p =
@@ -25,7 +25,7 @@ class ParallelShadows {
                                         std::span<Interval<double>> room) const noexcept;
 
   /// How many parts a ray may have: one before every shadow and one behind the last.
-  std::size_t most_parts() const noexcept { return prisms_.size() + balls_.size() + 1; }
+  std::size_t most_parts() const noexcept { return prisms_.size() + 2 * balls_.size() + 1; }
 
  private:
   /// normal · p >= offset.
@@ -40,17 +40,28 @@ class ParallelShadows {
     Vec3<double> centre;
     double radius;
   };
+  /// What a sphere shades, as if it were a ball, but for what lies both in `inside` and in the
+  /// cylinder of radius `opening` along the light.
+  struct BallShadow {
+    Ball ball;
+    Ball inside = ball;
+    double opening = 0;
+  };
 
   void add(const Sphere& sphere);
   void add(const Vec3<double> (&corners)[3]);
   void add_beyond_start(const Vec3<double> (&corners)[3]);
   static Interval<double> shaded(const Prism& prism, Vec3<double> origin, Vec3<double> direction);
+  Interval<double> cylinder(Vec3<double> centre, double radius, Vec3<double> origin,
+                            Vec3<double> direction) const;
   Interval<double> shaded(const Ball& ball, Vec3<double> origin, Vec3<double> direction) const;
+  Interval<double> hollow(const BallShadow& shadow, Vec3<double> origin,
+                          Vec3<double> direction) const;
 
   Vec3<double> travel_;
   double start_;
   std::vector<Prism> prisms_;
-  std::vector<Ball> balls_;
+  std::vector<BallShadow> balls_;
 };
 
 }  // namespace airlight
