@@ -71,7 +71,8 @@ double largest_difference(const Film& a, const Film& b) {
       for (const Estimate<double>& e : p.in_scatter)
         for (const Rgb<double>& c : {e.plain, e.analytic, e.occluded, e.unoccluded})
           all.insert(all.end(), {c.r, c.g, c.b});
-      const auto& [seen, plate, lit, was_lit] = p.holdouts;
+      const auto& [seen, plate] = p.holdouts;
+      const auto& [lit, was_lit] = p.holdout_light;
       for (const Rgb<double>& c : {p.surface, p.transmittance, p.albedo, seen, plate, lit, was_lit})
         all.insert(all.end(), {c.r, c.g, c.b});
       all.insert(all.end(), {p.normal.x, p.normal.y, p.normal.z});
@@ -506,8 +507,8 @@ TEST(Checkpoint, is_refused_when_cut_short_or_damaged_anywhere) {
     EXPECT_NE(error(damaged), "") << "byte " << i;
   }
   std::string newer = bytes;
-  newer[20] = 3;
-  EXPECT_EQ(error(newer), bad + ": is a checkpoint of format 3; accepted: 2");
+  newer[20] = 4;
+  EXPECT_EQ(error(newer), bad + ": is a checkpoint of format 4; accepted: 3");
   EXPECT_THAT(error_of([&] { read_checkpoint(folder / "no.ckpt"); }),
               EndsWith("no.ckpt: cannot be read: No such file or directory"));
 }

@@ -94,6 +94,13 @@ std::vector<std::string> layers_of(const std::string& file) {
   return names;
 }
 
+Image alpha_of(const std::string& file) {
+  const Picture picture = read_picture(file);
+  Image image(picture.width, picture.height, 1);
+  for (int y = 0; y < picture.height; ++y) picture.alpha->fill(y, image.row(y));
+  return image;
+}
+
 // In RGB fog the samples follow the light's colour: dimmed by a power of two it has the same ones.
 TEST(Mix, is_a_render_under_other_lights) {
   const struct {
@@ -127,6 +134,51 @@ TEST(Mix, is_a_render_under_other_lights) {
       EXPECT_EQ(read_picture(file).crop->x0, 3);
       EXPECT_EQ(read_picture(file).crop->full_height, 26);
     }
+}
+
+/// The scene over a floor that the background shows. More changes may follow.
+Film over_holdout(std::vector<Override> changes, int max_depth) {
+  const std::string text = scene_text(5, as_is, true) + R"(
+[[objects]]
+type = "rectangle"
+corner = [-3, -1.1, 2]
+u = [6, 0, 0]
+v = [0, 0, -6]
+holdout = true
+)";
+  changes.push_back(fmt::format("render.max_depth={}", max_depth));
+  const Scene scene = parse_scene(text, "scene.toml", changes);
+  return Renderer(scene).render(scene.render).film;
+}
+
+// Shadows on holdouts are quotients of sums over all lights.
+TEST(Mix, changes_the_shadows_on_holdouts) {
+  const std::vector<Gain> gains = {
+      {"sun", {0.5F, 0, 2}}, {"lamp", {0.25F, 8, 1}}, {"ungrouped", {0.5F, 2, 0.5F}}};
+  for (const int max_depth : {1, 3}) {
+    const Film before = over_holdout({}, max_depth);
+    const Film wanted =
+        over_holdout({"lights.0.irradiance=[2.5, 0, 10]", "lights.1.irradiance=[0.5, 24, 4]",
+                      "lights.2.irradiance=[0.25, 16, 9]", "lights.3.irradiance=[1.5, 6, 1.5]",
+                      "ambient=[0.1, 0.4, 0.1]", "background=[0.15, 0.4, 0.05]"},
+                     max_depth);
+    EXPECT_GT(largest_difference(before.layer("shadow"), wanted.layer("shadow")), 0.2);
+    for (const bool over_nothing : {false, true}) {
+      Picture picture = before.picture(), other = wanted.picture();
+      if (over_nothing) add_alpha(picture), add_alpha(other);
+      const Folder folder;
+      const std::string mixed = folder / "mixed.exr", rendered = folder / "rendered.exr";
+      write_exr(mixed, mix(picture, gains), ExrType::single);
+      write_exr(rendered, other, ExrType::single);
+      for (const std::string& layer : layers_of(rendered)) {
+        if (layer == "standard_error") continue;
+        const std::string name = layer == "beauty" ? "" : layer;
+        EXPECT_LT(largest_difference(read_image(rendered, name), read_image(mixed, name)), 4e-6)
+            << layer << ", max_depth " << max_depth;
+      }
+      if (over_nothing) EXPECT_LT(largest_difference(alpha_of(rendered), alpha_of(mixed)), 2e-6);
+    }
+  }
 }
 
 TEST(Mix, needs_no_light_for_a_group) {

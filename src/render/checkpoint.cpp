@@ -14,7 +14,7 @@ namespace airlight {
 namespace {
 
 constexpr std::string_view magic = "airlight checkpoint\n";
-constexpr std::uint32_t format = 2;
+constexpr std::uint32_t format = 3;
 
 /// What stands before the header.
 struct Prelude {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "error.h"
+#include "image/shadow.h"
 
 namespace airlight {
 namespace {
@@ -28,13 +29,11 @@ Rgb<double> in_scatter(const PixelSums& pixel) { return mean_estimate(pixel).rad
 
 Rgb<double> surface(const PixelSums& pixel) { return pixel.visible() * per_sample(pixel); }
 
-/// What shadow leaves of a background that is seen in part beside holdouts.
 Rgb<double> shadow(const PixelSums& pixel) {
-  const Rgb<double> left = pixel.holdouts.shadow();
-  Rgb<double> result(1.);
+  Rgb<double> result;
   for (int c = 0; c < 3; ++c)
-    if (pixel.transmittance[c] > 0)
-      result[c] -= pixel.holdouts.seen[c] / pixel.transmittance[c] * (1 - left[c]);
+    result[c] =
+        shadow_on_background(pixel.holdouts.seen[c], pixel.transmittance[c], pixel.shadow[c]);
   return result;
 }
 
@@ -203,11 +202,17 @@ PixelSums Film::pixel(std::size_t pixel, int group) const {
   result.transmittance = colour(features_, features, FilmLayout::transmittance);
   result.albedo = colour(features_, features, FilmLayout::albedo);
   if (layout.shadow) {
-    const int first = layout.holdouts();
-    result.holdouts = {colour(features_, features, first),
-                       group == 0 ? colour(sums_, sums, layout.plate()) : Rgb<double>(),
-                       colour(features_, features, first + 3),
-                       colour(features_, features, first + 6)};
+    result.holdouts = {colour(features_, features, layout.holdouts()),
+                       group == 0 ? colour(sums_, sums, layout.plate()) : Rgb<double>()};
+    HoldoutLight<double> all;
+    for (int g = 0; g < layout.groups; ++g) {
+      const int first = layout.holdout_light(g);
+      const HoldoutLight<double> light{colour(features_, features, first),
+                                       colour(features_, features, first + 3)};
+      if (g == group) result.holdout_light = light;
+      all += light;
+    }
+    result.shadow = all.shadow();
   }
   const Rgb<double> normal = colour(features_, features, FilmLayout::normal);
   result.normal = {normal.r, normal.g, normal.b};
@@ -351,6 +356,9 @@ Picture Film::picture() const {
     return [member](const PixelSums& p) { return mean_estimate(p).*member; };
   };
   using E = Estimate<double>;
+  const auto mean_light_of = [](auto member) {
+    return [member](const PixelSums& p) { return p.holdout_light.*member * per_sample(p); };
+  };
 
   sum_layer("beauty", beauty);
   sum_layer("in_scatter", in_scatter);
@@ -386,12 +394,26 @@ Picture Film::picture() const {
   if (layout.groups == 1) {
     add_sums("", 0, 1);
   } else {
+    if (layout.shadow) {
+      sum_layer(
+          "holdout_seen", [](const PixelSums& p) { return p.holdouts.seen * per_sample(p); },
+          Storage::single, 0, 1);
+      sum_layer(
+          "holdout_plate", [](const PixelSums& p) { return p.holdouts.plate * per_sample(p); },
+          Storage::single, 0, 1);
+    }
     // Sums of different groups belong to different quotients.
     for (int group = 0; group < layout.groups; ++group) {
       const std::string name = group ? groups[std::size_t(group)] : "ungrouped";
       sum_layer(name, beauty, Storage::colour, group, 1);
       sum_layer(name + ".in_scatter", in_scatter, Storage::colour, group, 1);
       sum_layer(name + ".surface", surface, Storage::colour, group, 1);
+      if (layout.shadow) {
+        sum_layer(name + ".holdout_lit", mean_light_of(&HoldoutLight<double>::lit), Storage::single,
+                  group, 1);
+        sum_layer(name + ".holdout_was_lit", mean_light_of(&HoldoutLight<double>::was_lit),
+                  Storage::single, group, 1);
+      }
       add_sums(name + ".", group, 1);
     }
   }

@@ -23,16 +23,18 @@ struct PixelSums {
   std::array<double, 2> samples{};  ///< how many are in each half
   Rgb<double> surface;           ///< light from surfaces and the background, dimmed by the medium
   HoldoutSums<double> holdouts;  ///< the background in the place of holdouts, if it is not there
-  Rgb<double> transmittance;     ///< what passes from the background, also where holdouts show it
-  Rgb<double> albedo;            ///< of the first surface
-  Vec3<double> normal;           ///< of the first surface, towards the camera
+  HoldoutLight<double> holdout_light;
+  Rgb<double> shadow{1.};     ///< what the light of all groups leaves of that background
+  Rgb<double> transmittance;  ///< what passes from the background, also where holdouts show it
+  Rgb<double> albedo;         ///< of the first surface
+  Vec3<double> normal;        ///< of the first surface, towards the camera
   double depth = 0;   ///< of the first surface on the pixel's first ray; 0 where there is none  [m]
   double object = 0;  ///< 1 + the index of that surface's object; 0 where there is none
 
   double sample_count() const { return samples[0] + samples[1]; }
 
   /// Light from surfaces and from the background, also where holdouts show that.
-  Rgb<double> visible() const { return surface + holdouts.plate * holdouts.shadow(); }
+  Rgb<double> visible() const { return surface + holdouts.plate * shadow; }
 };
 
 /// The in-scatter of a pixel over both halves, divided by the number of samples.

@@ -43,7 +43,7 @@ constexpr int index(int x, int y) noexcept {
 ///             then, of holdouts:     plate
 ///     float:                         transmittance, albedo, normal, depth, object
 ///             for each light group:  the in-scatter's sums again, of its second half of samples
-///             then, of holdouts:     seen, lit, was_lit
+///             then, of holdouts:     seen, and for each light group lit, was_lit
 struct FilmLayout {
   int groups = 1;       ///< of lights; the first is of all that belongs to none
   bool plain = true;    ///< an estimator without a quotient, or emission
@@ -60,12 +60,13 @@ struct FilmLayout {
   constexpr int plate() const noexcept { return in_scatter(groups); }
 
   /// Rows of floats in a block.
-  constexpr int features() const noexcept { return holdouts() + (shadow ? 9 : 0); }
+  constexpr int features() const noexcept { return shadow ? holdout_light(groups) : holdouts(); }
   static constexpr int transmittance = 0, albedo = 3, normal = 6;
   static constexpr int added = 9;  ///< the first ones add up; depth and object do not
   static constexpr int depth = 9, object = 10;
   constexpr int second_half(int group) const noexcept { return 11 + group * estimate(); }
   constexpr int holdouts() const noexcept { return second_half(groups); }
+  constexpr int holdout_light(int group) const noexcept { return holdouts() + 3 + 6 * group; }
 
   constexpr std::size_t bytes_a_pixel() const noexcept {
     return std::size_t(sums()) * sizeof(double) + std::size_t(features()) * sizeof(float) +

@@ -9,20 +9,34 @@ namespace airlight {
 ///
 ///     radiance = plate · lit / was_lit    [W/(m² sr)]
 ///
-/// Holdouts that shadow each other do so above and below, so that nothing darkens twice.
+/// with the `HoldoutLight` of all lights. Holdouts that shadow each other do so above and below, so
+/// that nothing darkens twice.
 template <class F>
 struct HoldoutSums {
-  Rgb<F> seen;     ///< what passes from the holdouts to the camera
-  Rgb<F> plate;    ///< the background in their place, as it passes  [W/(m² sr)]
-  Rgb<F> lit;      ///< light that arrives at them, times `seen`  [W/m²]
-  Rgb<F> was_lit;  ///< the same without the medium and without objects that are no holdouts
+  Rgb<F> seen;   ///< what passes from the holdouts to the camera
+  Rgb<F> plate;  ///< the background in their place, as it passes  [W/(m² sr)]
 
   HoldoutSums& operator+=(const HoldoutSums& other) noexcept {
-    seen += other.seen, plate += other.plate, lit += other.lit, was_lit += other.was_lit;
+    seen += other.seen, plate += other.plate;
     return *this;
   }
   friend HoldoutSums operator*(const HoldoutSums& h, F s) noexcept {
-    return {h.seen * s, h.plate * s, h.lit * s, h.was_lit * s};
+    return {h.seen * s, h.plate * s};
+  }
+};
+
+/// Light that arrives at holdouts, times what passes from there to the camera, in sums.
+template <class F>
+struct HoldoutLight {
+  Rgb<F> lit;      ///< [W/m²]
+  Rgb<F> was_lit;  ///< the same without the medium and without objects that are no holdouts
+
+  HoldoutLight& operator+=(const HoldoutLight& other) noexcept {
+    lit += other.lit, was_lit += other.was_lit;
+    return *this;
+  }
+  friend HoldoutLight operator*(const HoldoutLight& h, const Rgb<F>& s) noexcept {
+    return {h.lit * s, h.was_lit * s};
   }
 
   /// What is left of the light, by channel; 1 where there was none.

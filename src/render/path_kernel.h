@@ -76,6 +76,7 @@ class PathKernel {
               std::uint64_t(tile.rect.height)),
         sums_(std::size_t(frame.layout.groups)),
         weights_(frame.scene.lights.size(), F(0)),
+        holdout_light_(frame.layout.shadow ? std::size_t(frame.layout.groups) : 0),
         rows_(std::size_t(frame.layout.sums() + FilmLayout::added + frame.layout.features() -
                           frame.layout.holdouts())),
         features_(std::size_t(tile.rect.width * tile.rect.height * frame.layout.features())) {
@@ -224,7 +225,7 @@ class PathKernel {
       Mask<F> open = straight;
       if (const Mask<F> held = straight & found & (at.uncovered > F(0));
           frame_.layout.shadow && any(held)) {
-        holdouts_ += surfaces.holdouts(at, passed, behind_, {0, 1}, held);
+        holdouts_ += surfaces.holdouts(at, passed, behind_, {0, 1}, held, holdout_light_);
         open = open & !held;
       }
       add(Frame::ungrouped, passed * behind_, from_fog, open);
@@ -420,7 +421,8 @@ class PathKernel {
     }
     if (layout.shadow) colour(holdouts_.plate);
     colour(transmittance_), colour(albedo_), take(normal_.x), take(normal_.y), take(normal_.z);
-    if (layout.shadow) colour(holdouts_.seen), colour(holdouts_.lit), colour(holdouts_.was_lit);
+    if (layout.shadow) colour(holdouts_.seen);
+    for (auto& [lit, was_lit] : holdout_light_) colour(lit), colour(was_lit);
     const std::uint32_t good = bits<F>(poison == F(0));
     for (int i = 0; i < lanes<F>; ++i)
       if ((ended >> i) & 1u) {
@@ -472,6 +474,7 @@ class PathKernel {
   Rgb<F> transmittance_, albedo_;
   Vec3<F> normal_;
   HoldoutSums<F> holdouts_;
+  std::vector<HoldoutLight<F>> holdout_light_;  ///< by light group
   F depth_{F(0)}, object_{F(0)};
   std::vector<std::array<Scalar<F>, std::size_t(lanes<F>)>>
       rows_;  ///< sums on their way to the film

@@ -35,7 +35,7 @@ struct RayKeeper {
     if (walk.t_end < far_away) ray.end = walk.t_end;
     ray.through = walk.through;
     for (const Rgb<F>& group : walk.radiance) ray.surface += group;
-    ray.surface += walk.holdouts.plate * walk.holdouts.shadow();
+    ray.surface += walk.plate();
     ray.emission = walk.emission;
     rays.push_back(ray);
     medium_rays.emplace_back().t_max = 0;

@@ -2,6 +2,8 @@
 /// Where a packet of rays meets surfaces, and the light that these receive and send back.
 #include <airlight/media.h>
 
+#include <span>
+
 #include "render/frame.h"
 #include "render/holdout_sums.h"
 
@@ -97,22 +99,28 @@ class SurfaceLight {
   }
 
   /// What is seen of holdouts: `seen` is what passes from them to the camera, `background` stands
-  /// in their place. Every sample counts with all shadows and with those of holdouts alone.
+  /// in their place. Adds the light that arrives there by its group; every sample counts with all
+  /// shadows and with those of holdouts alone.
   HoldoutSums<F> holdouts(const Crossing<F>& at, const Rgb<F>& seen, const Rgb<F>& background,
-                          SampleRange samples, Mask<F> where) const noexcept {
+                          SampleRange samples, Mask<F> where,
+                          std::span<HoldoutLight<F>> groups) const noexcept {
+    const Rgb<F> passes = select(where, seen, Rgb<F>());
+    const auto add = [&](int group, const Shadowed<F>& light) {
+      groups[std::size_t(group)] +=
+          HoldoutLight<F>{passes * light.occluded, passes * light.unoccluded};
+    };
     const Rgb<F> ambient(frame_.scene.ambient * pi);
-    Shadowed<F> light{ambient, ambient};
+    add(Frame::ungrouped, {ambient, ambient});
     for (int i = 0; i < int(frame_.scene.lights.size()); ++i)
       std::visit(
-          [&](const auto& one) {
-            light +=
-                irradiance(one, i, at, samples, where, [&](Vec3<F> w, F reach, Mask<F> struck) {
+          [&](const auto& light) {
+            add(frame_.light_group[std::size_t(i)],
+                irradiance(light, i, at, samples, where, [&](Vec3<F> w, F reach, Mask<F> struck) {
                   return arriving_at_holdout(w, reach, i, at, struck);
-                });
+                }));
           },
           frame_.scene.lights[std::size_t(i)]);
-    const Rgb<F> passes = select(where, seen, Rgb<F>());
-    return {passes, passes * background, passes * light.occluded, passes * light.unoccluded};
+    return {passes, passes * background};
   }
 
  private:

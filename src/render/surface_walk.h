@@ -1,20 +1,37 @@
 #pragma once
 /// What a packet of camera rays meets: surfaces one behind the other, glass and cut-outs between,
 /// the background.
+#include <algorithm>
 #include <span>
+#include <vector>
 
 #include "render/surface_light.h"
 
 namespace airlight {
 
+/// Room for what a walk finds, by light group.
+template <Real F>
+struct WalkRoom {
+  std::vector<Rgb<F>> radiance;
+  std::vector<HoldoutLight<F>> holdout_light;
+
+  explicit WalkRoom(const FilmLayout& layout)
+      : radiance(std::size_t(layout.groups)),
+        holdout_light(layout.shadow ? std::size_t(layout.groups) : 0) {}
+};
+
 template <Real F, class Space>
 class SurfaceWalk {
  public:
-  /// `radiance`: room for one colour a light group.
+  /// `groups`: room for what each light group sends.
   SurfaceWalk(const Frame& frame, const Medium* medium, const Space& space,
-              const Sampler<F>& sampler, std::span<Rgb<F>> radiance) noexcept
-      : radiance(radiance), frame_(frame), surfaces_(frame, medium, space, sampler, Bundle::tight) {
-    for (Rgb<F>& group : radiance) group = {};
+              const Sampler<F>& sampler, WalkRoom<F>& groups) noexcept
+      : radiance(groups.radiance),
+        holdout_light(groups.holdout_light),
+        frame_(frame),
+        surfaces_(frame, medium, space, sampler, Bundle::tight) {
+    std::ranges::fill(radiance, Rgb<F>());
+    std::ranges::fill(holdout_light, HoldoutLight<F>());
   }
 
   Rgb<F> background;  ///< what is behind everything, to be set before the walk  [W/(m² sr)]
@@ -26,8 +43,9 @@ class SurfaceWalk {
   Rgb<F> through{F(1)};        ///< what passes from the end of the ray to the camera
   Rgb<F> uncovered;            ///< what passes from the background, also where holdouts show it
   HoldoutSums<F> holdouts;     ///< if they may be shadowed
-  Rgb<F> albedo;               ///< of the first surface; 0 without one
-  Vec3<F> normal;              ///< of the first surface, towards the camera; 0 without one
+  std::span<HoldoutLight<F>> holdout_light;  ///< by light group
+  Rgb<F> albedo;                             ///< of the first surface; 0 without one
+  Vec3<F> normal;  ///< of the first surface, towards the camera; 0 without one
   F depth{F(0)}, object{F(0)};
   bool filtered = false;  ///< whether any lane crosses something that lets light through
 
@@ -55,7 +73,7 @@ class SurfaceWalk {
       const Rgb<F> shown = dim * at.uncovered;
       uncovered = select(found, uncovered + shown, uncovered);
       if (const Mask<F> held = found & (at.uncovered > F(0)); frame_.layout.shadow && any(held))
-        holdouts += surfaces_.holdouts(at, shown, background, samples, held);
+        holdouts += surfaces_.holdouts(at, shown, background, samples, held, holdout_light);
       shade(at, dim, samples, found);
       if (first) {
         albedo = select(found, at.albedo, albedo);
@@ -74,6 +92,13 @@ class SurfaceWalk {
       active = passes;
     }
     radiance[Frame::ungrouped] += (uncovered - holdouts.seen) * background;
+  }
+
+  /// What the camera sees of the background in the place of holdouts.  [W/(m² sr)]
+  Rgb<F> plate() const noexcept {
+    HoldoutLight<F> all;
+    for (const HoldoutLight<F>& group : holdout_light) all += group;
+    return holdouts.plate * all.shadow();
   }
 
  private:

@@ -28,6 +28,7 @@ struct PacketSums {
   struct Group {
     Halves<F> in_scatter;
     Rgb<F> surface;
+    HoldoutLight<F> holdout_light;
   };
   std::vector<Group> groups;
   Rgb<F> transmittance, albedo;
@@ -114,8 +115,11 @@ struct PacketSums {
     for (int c = 0; c < 3; ++c) {
       sum(layout.plate() + c, holdouts.plate[c], nullptr, F(0));
       feature(layout.holdouts() + c, holdouts.seen[c]);
-      feature(layout.holdouts() + 3 + c, holdouts.lit[c]);
-      feature(layout.holdouts() + 6 + c, holdouts.was_lit[c]);
+    }
+    for (int g = 0; g < layout.groups; ++g) {
+      const auto& [lit, was_lit] = groups[std::size_t(g)].holdout_light;
+      const int row = layout.holdout_light(g);
+      for (int c = 0; c < 3; ++c) feature(row + c, lit[c]), feature(row + 3 + c, was_lit[c]);
     }
   }
 };
@@ -190,7 +194,7 @@ class TileKernel {
         space_(space),
         watcher_(watcher),
         sums_(frame.layout),
-        surface_(std::size_t(frame.layout.groups)),
+        walk_room_(frame.layout),
         weights_(frame.scene.lights.size(), F(0)),
         room_(shadow_room(frame)) {
     if (medium) camera_local_ = Vec3<F>(space.point(frame.camera.position));
@@ -249,7 +253,7 @@ class TileKernel {
     if (medium_) local.d = space_.vector(direction);
     const auto inside = stretches_of(medium_, space_, local);
 
-    SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler, surface_);
+    SurfaceWalk<F, Space> walk(frame_, medium_, space_, sampler, walk_room_);
     walk.background = background;
     walk.along(origin, direction, inside, samples, active);
 
@@ -263,8 +267,10 @@ class TileKernel {
       sums_.samples[half] += counts[half];
       ungrouped[half].plain += walk.emission * Rgb<F>(F(Scalar<F>(counts[half])));
     }
-    for (std::size_t g = 0; g < sums_.groups.size(); ++g)
+    for (std::size_t g = 0; g < sums_.groups.size(); ++g) {
       sums_.groups[g].surface += walk.radiance[g] * n;
+      if (frame_.layout.shadow) sums_.groups[g].holdout_light += walk.holdout_light[g] * Rgb<F>(n);
+    }
     sums_.transmittance += walk.uncovered * n;
     if (frame_.layout.shadow) sums_.holdouts += walk.holdouts * n;
     sums_.albedo += walk.albedo * n;
@@ -313,8 +319,8 @@ class TileKernel {
   Watcher& watcher_;
   Vec3<F> camera_local_;
   PacketSums<F> sums_;
-  std::vector<Rgb<F>> surface_;  ///< of one camera ray, by light group
-  std::vector<F> weights_;       ///< of lights on one camera ray
+  WalkRoom<F> walk_room_;   ///< for one camera ray
+  std::vector<F> weights_;  ///< of lights on one camera ray
   ShadowRoom room_;
 };
 

@@ -12,10 +12,10 @@ namespace airlight {
 namespace {
 
 /// Layers that a picture has anyway.
-const std::vector<std::string> taken = {"albedo",   "alpha",         "analytic",  "beauty",
-                                        "depth",    "in_scatter",    "normal",    "object",
-                                        "occluded", "plain",         "shadow",    "standard_error",
-                                        "surface",  "transmittance", "ungrouped", "unoccluded"};
+const std::vector<std::string> taken = {
+    "albedo",       "alpha",          "analytic", "beauty",        "depth",     "holdout_plate",
+    "holdout_seen", "in_scatter",     "normal",   "object",        "occluded",  "plain",
+    "shadow",       "standard_error", "surface",  "transmittance", "ungrouped", "unoccluded"};
 
 constexpr std::size_t longest_group = 64;  // an EXR file has room for 255 with channel and layer
 
