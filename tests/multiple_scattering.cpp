@@ -514,6 +514,27 @@ TEST(Energy, is_lost_where_the_fog_absorbs_and_never_won) {
   EXPECT_GT(mean(values), 0.5);
 }
 
+// --- what the camera sees first ------------------------------------------------------------------
+
+TEST(Paths, tell_of_the_first_surface_what_single_scattering_tells) {
+  Scene scene = furnace(Colour(1.));
+  scene.objects = {{"ball", Sphere{{0, 0, 0}, 0.5}, {}}};
+  scene.resolution = {16, 12};  // packets see the ball in part
+  scene.render.spp = 4;
+  scene.render.samples_per_ray = 0;
+  const auto film = [&](int max_depth) {
+    scene.render.max_depth = max_depth;
+    return Renderer(scene).render(scene.render).film;
+  };
+  const Film once = film(1), often = film(3);
+  for (const char* name : {"transmittance", "albedo", "normal", "depth", "object"}) {
+    const Image expected = once.layer(name), seen = often.layer(name);
+    EXPECT_GT(std::ranges::max(expected.pixels), 0) << name;
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+      ASSERT_NEAR(seen.pixels[i], expected.pixels[i], 1e-6) << name << ' ' << i;
+  }
+}
+
 // --- directions ---------------------------------------------------------------------------------
 
 template <class Function>

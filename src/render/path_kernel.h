@@ -393,10 +393,13 @@ class PathKernel {
 
   /// Notes what the camera sees first.
   void describe(const Hit<F>& hit, Mask<F> found, const Crossing<F>& at) noexcept {
-    albedo_ = select(first_segment_, at.albedo, albedo_);
-    normal_ = select(first_segment_, at.normal, normal_);
-    depth_ = select(first_segment_, select(found, hit.t, F(0)), depth_);
-    object_ = select(first_segment_, at.object, object_);
+    const auto note = [&](auto& noted, const auto& seen, const auto& none) {
+      noted = select(first_segment_, select(found, seen, none), noted);
+    };
+    note(albedo_, at.albedo, Rgb<F>());
+    note(normal_, at.normal, Vec3<F>());
+    note(depth_, hit.t, F(0));
+    note(object_, at.object, F(0));
   }
 
   /// Adds the sums of the paths that have ended to the film and sets them to zero.
