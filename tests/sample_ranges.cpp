@@ -60,7 +60,7 @@ Film film_of(Renderer& renderer, const RenderSettings& settings,
 }
 
 bool same_bits(const PixelSums& a, const PixelSums& b) {
-  static_assert(sizeof(PixelSums) == 52 * sizeof(double));  // numbers only, no gaps
+  static_assert(sizeof(PixelSums) == 55 * sizeof(double));  // numbers only, no gaps
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
@@ -251,6 +251,29 @@ TEST(StandardError, is_not_too_small_and_not_far_too_large) {
       EXPECT_LT(quotient, most) << estimator << ", " << spp << " spp, " << per_ray << " a ray";
     }
   }
+}
+
+// A film keeps the whole in double and its second half in float.
+TEST(StandardError, of_a_half_that_asked_nothing_is_no_quotient_of_rounding) {
+  Film film({1, 1}, {0, 0, 1, 1});
+  const FilmPixels pixel = film.at(0, 0);
+  const auto add = [&](int number, float first, float second) {  // in estimators' order, by channel
+    for (int c = 0; c < 3; ++c) {
+      const int row = 3 * number + c;
+      pixel.sums[(film.layout.in_scatter(0) + row) * film_block::pixels] += double(first + second);
+      pixel.features[(film.layout.second_half(0) + row) * film_block::pixels] += second;
+    }
+  };
+  constexpr int analytic = 1, occluded = 2, unoccluded = 3;
+  constexpr int samples = 100;  // of each half
+  for (int i = 0; i < samples; ++i) {
+    add(analytic, 1, 1);
+    add(occluded, 0, 0.1f);
+    add(unoccluded, 0, 0.3f);
+  }
+  pixel.samples[0] = pixel.samples[film_block::pixels] = samples;
+  const double lit = 1. / 3;  // by the second half; the first says 0
+  EXPECT_NEAR(film.layer("standard_error").at(0, 0, 1), lit / 2, 1e-6);
 }
 
 }  // namespace

@@ -39,12 +39,17 @@ Rgb<double> shadow(const PixelSums& pixel) {
 
 Rgb<double> beauty(const PixelSums& pixel) { return in_scatter(pixel) + surface(pixel); }
 
-/// The difference of the two halves, each with its own quotient.
+/// The difference of the two halves, each with its own quotient. The first is the whole less the
+/// second, a sum of floats: the rounding that is left where it has nothing is no quotient.
 Rgb<double> halves_apart(const PixelSums& pixel) {
-  const auto half = [&](std::size_t i) {
-    return (pixel.in_scatter[i] * (1 / pixel.samples[i])).radiance();
+  constexpr double rounding = 1e-6;
+  auto [first, second] = pixel.in_scatter;
+  for (int c = 0; c < 3; ++c)
+    if (first.unoccluded[c] <= rounding * second.unoccluded[c]) first.unoccluded[c] = 0;
+  const auto radiance = [&](const Estimate<double>& half, std::size_t i) {
+    return (half * (1 / pixel.samples[i])).radiance();
   };
-  return half(0) - half(1);
+  return radiance(first, 0) - radiance(second, 1);
 }
 
 const std::vector<std::string> rgb = {"R", "G", "B"};
