@@ -222,6 +222,22 @@ TEST(BeamsInScenes, do_not_pass_where_their_image_is_transparent) {
   }
 }
 
+TEST(BeamsInScenes, do_not_pass_what_hides_in_transparent_parts_of_their_image) {
+  Scene scene = beam_in_a_box();
+  auto& beam = std::get<Collimated>(scene.lights[0]);
+  beam.cross_section = CrossSection::rectangle(1.2, 1.4);
+  Texture edge;  // half white, half transparent: white fades out as on black, whatever hides there
+  edge.width = 2, edge.height = 1;
+  for (const std::uint8_t hidden : {0, 90, 255}) {
+    edge.rgba = {255, 255, 255, 255, hidden, hidden, hidden, 0};
+    for (const double part : {0., 0.25, 0.5, 1.}) {  // of the way between the texels' centres
+      const Vector at = beam.position + beam.direction + beam.right * ((part - 0.5) * 0.6);
+      const auto passed = through_image<double>(beam, edge, at, true);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(passed[c], 1 - part, 1e-6) << int(hidden);
+    }
+  }
+}
+
 TEST(BeamsInScenes, with_an_image_give_what_quadrature_gives) {
   // 255 passes all and 0 nothing; 188 of sRGB is 0.5029 of the light.
   const Rgb<double> brightest(1, std::pow((188 / 255. + 0.055) / 1.055, 2.4), 0);

@@ -18,8 +18,8 @@ Rgb<F> through_image(const Collimated& beam, const Texture& image, Vec3<F> at,
   alignas(64) Scalar<F> values[3][lanes<F>] = {};
   for (int i = 0; i < lanes<F>; ++i) {
     if ((which >> i & 1) == 0) continue;
-    const std::array<float, 4> texel = image.sample(float(lane(u, i)), float(lane(v, i)));
-    for (int c = 0; c < 3; ++c) values[c][i] = texel[std::size_t(c)] * texel[3];
+    const std::array<float, 3> passes = image.over_black(float(lane(u, i)), float(lane(v, i)));
+    for (int c = 0; c < 3; ++c) values[c][i] = passes[std::size_t(c)];
   }
   return {load<F>(values[0]), load<F>(values[1]), load<F>(values[2])};
 }

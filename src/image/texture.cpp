@@ -38,24 +38,43 @@ Neighbours neighbours(float x, int size, Wrap wrap) {
   return {wrapped(i, size, wrap), wrapped(i + 1, size, wrap), texel - below};
 }
 
+float linear(const Texture& texture, std::uint8_t code) {
+  return texture.srgb ? linear_of_srgb[code] : float(code) / 255;
+}
+
+/// The mean of four texels about a point; add(sum, texel, weight) adds one of them.
+template <class Sum, class Add>
+Sum bilinear(const Texture& texture, float u, float v, Add&& add) {
+  const Neighbours x = neighbours(u, texture.width, texture.wrap_u);
+  const Neighbours y = neighbours(1 - v, texture.height, texture.wrap_v);
+  Sum sum{};
+  const auto texel = [&](int column, int row, float weight) {
+    const std::size_t index = std::size_t(row) * std::size_t(texture.width) + std::size_t(column);
+    add(sum, texture.rgba.data() + 4 * index, weight);
+  };
+  texel(x.first, y.first, (1 - x.weight) * (1 - y.weight));
+  texel(x.second, y.first, x.weight * (1 - y.weight));
+  texel(x.first, y.second, (1 - x.weight) * y.weight);
+  texel(x.second, y.second, x.weight * y.weight);
+  return sum;
+}
+
 }  // namespace
 
 std::array<float, 4> Texture::sample(float u, float v) const {
-  const Neighbours x = neighbours(u, width, wrap_u);
-  const Neighbours y = neighbours(1 - v, height, wrap_v);
-  std::array<float, 4> sum{};
-  const auto add = [&](int column, int row, float weight) {
-    const std::uint8_t* texel =
-        rgba.data() + 4 * (std::size_t(row) * std::size_t(width) + std::size_t(column));
-    for (std::size_t c = 0; c < 3; ++c)
-      sum[c] += weight * (srgb ? linear_of_srgb[texel[c]] : float(texel[c]) / 255);
+  const auto add = [&](std::array<float, 4>& sum, const std::uint8_t* texel, float weight) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * linear(*this, texel[c]);
     sum[3] += weight * (float(texel[3]) / 255);
   };
-  add(x.first, y.first, (1 - x.weight) * (1 - y.weight));
-  add(x.second, y.first, x.weight * (1 - y.weight));
-  add(x.first, y.second, (1 - x.weight) * y.weight);
-  add(x.second, y.second, x.weight * y.weight);
-  return sum;
+  return bilinear<std::array<float, 4>>(*this, u, v, add);
+}
+
+std::array<float, 3> Texture::over_black(float u, float v) const {
+  const auto add = [&](std::array<float, 3>& sum, const std::uint8_t* texel, float weight) {
+    const float covers = weight * (float(texel[3]) / 255);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += covers * linear(*this, texel[c]);
+  };
+  return bilinear<std::array<float, 3>>(*this, u, v, add);
 }
 
 Texture load_texture(const std::filesystem::path& path) {

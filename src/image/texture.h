@@ -29,6 +29,10 @@ struct Texture {
   /// u goes right, v up: v = 0 is the lower edge, as in OBJ (glTF counts v downwards: pass 1 - v).
   /// Coordinates that are not finite count as 0.
   std::array<float, 4> sample(float u, float v) const;
+
+  /// The same of the texture laid on black: every texel's colour counts as far as it is opaque, so
+  /// that what hides in transparent texels shows nowhere.
+  std::array<float, 3> over_black(float u, float v) const;
 };
 
 /// Reads a PNG, JPG, BMP or TGA file. Throws Error if it cannot be read or is no such picture.
