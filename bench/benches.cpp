@@ -5,6 +5,7 @@
 #include "loading.h"
 #include "memory.h"
 #include "paths.h"
+#include "quality.h"
 #include "row.h"
 #include "shadow_rays.h"
 #include "threads.h"
@@ -21,6 +22,7 @@ std::vector<Bench> benches() {
       {"shadow_rays", "shadow rays of a whole render against bare Embree, one core", shadow_rays},
       {"paths", "multiple scattering against bare Embree, and its lanes, one core", paths},
       {"convergence", "time to 40 dB on the sphere in fog, one core", convergence},
+      {"quality", "time to usable pictures of the sunroom, 640 x 360, two threads", quality},
       {"light_selection", "noise of samples that ask one of five suns each, closed form over blind",
        light_selection},
       {"checkpoints", "a render that keeps its sums in a file against one that does not",

@@ -20,16 +20,6 @@ struct Run {
 
 constexpr int counts[] = {4, 8, 16, 32};
 
-/// Seconds at which the PSNR passes 40 dB, between the counts on either side: log time over dB.
-double seconds_to_40_db(const Run& run) {
-  for (std::size_t i = 1; i < run.psnr.size(); ++i)
-    if (run.psnr[i] >= 40) {
-      const double part = (40 - run.psnr[i - 1]) / (run.psnr[i] - run.psnr[i - 1]);
-      return std::exp(std::lerp(std::log(run.seconds[i - 1]), std::log(run.seconds[i]), part));
-    }
-  return NAN;
-}
-
 }  // namespace
 
 std::vector<Row> convergence() {
@@ -59,6 +49,9 @@ std::vector<Row> convergence() {
       run->psnr.push_back(-10 * std::log10(mse));
     }
 
+  const auto seconds_to_40_db = [](const Run& run) {
+    return seconds_to(40, run.psnr, run.seconds);
+  };
   std::vector<double> against_cached, against_per_step;
   for (int round = 0; round < 9; ++round) {
     for (Run* run : runs) run->seconds.clear();

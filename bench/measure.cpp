@@ -40,6 +40,17 @@ double median_seconds(int repeats, const std::function<void()>& work) {
   return median(taken);
 }
 
+double seconds_to(double wanted, const std::vector<double>& quality,
+                  const std::vector<double>& seconds) {
+  if (quality.empty() || quality[0] > wanted) return NAN;
+  for (std::size_t i = 1; i < quality.size(); ++i)
+    if (quality[i] >= wanted) {
+      const double part = (wanted - quality[i - 1]) / (quality[i] - quality[i - 1]);
+      return std::exp(std::lerp(std::log(seconds[i - 1]), std::log(seconds[i]), part));
+    }
+  return NAN;
+}
+
 double median_ratio(int pairs, const std::function<void()>& a, const std::function<void()>& b) {
   a();
   b();

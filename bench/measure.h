@@ -31,6 +31,12 @@ double median(std::vector<double> values);
 /// and clocks.
 double median_seconds(int repeats, const std::function<void()>& work);
 
+/// Seconds after which runs of growing length reach a quality, in a unit whose growth goes with the
+/// logarithm of time (decibels): on the line between the runs on either side. NaN if none reaches
+/// it or the first does already. Both vectors have a value for each run.
+double seconds_to(double wanted, const std::vector<double>& quality,
+                  const std::vector<double>& seconds);
+
 /// Seconds of `a` over seconds of `b`: the median over `pairs` (>= 1) of the ratio of two
 /// neighbouring runs, so that what slows the machine for a while slows both. Every other pair runs
 /// `b` first; one pair is run before and not counted.

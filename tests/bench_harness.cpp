@@ -38,6 +38,17 @@ TEST(Median, is_the_middle) {
   EXPECT_TRUE(std::isnan(median({})));
 }
 
+TEST(SecondsTo, lies_between_the_runs_on_either_side) {
+  const std::vector<double> quality{10, 20, 30}, seconds{1, 4, 16};
+  EXPECT_NEAR(seconds_to(10, quality, seconds), 1, 1e-12);
+  EXPECT_NEAR(seconds_to(15, quality, seconds), 2, 1e-12);
+  EXPECT_NEAR(seconds_to(25, quality, seconds), 8, 1e-12);
+  EXPECT_NEAR(seconds_to(30, quality, seconds), 16, 1e-12);
+  for (const double beyond : {9., 31.})
+    EXPECT_TRUE(std::isnan(seconds_to(beyond, quality, seconds)));
+  EXPECT_TRUE(std::isnan(seconds_to(1, {}, {})));
+}
+
 TEST(MedianRatio, runs_both_sides_equally_often_and_in_turn) {
   std::string order;
   median_ratio(
