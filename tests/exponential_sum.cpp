@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <vector>
 
+#include "support/random.h"
 #include "support/typed.h"
 #include "support/worst.h"
 
@@ -39,41 +39,32 @@ struct Sum {
   }
 };
 
-class Sums {
- public:
-  explicit Sums(unsigned seed) : engine_(seed) {}
-
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<>(low, high)(engine_);
+/// As in one coloured medium: all depths grow together, or all fall.
+Sum in_one_medium(test::Random& random, const std::array<double, channels>& sigma) {
+  Sum sum;
+  const double from = random.uniform(0, 6), to = random.uniform(0, 6);
+  for (std::size_t c = 0; c < channels; ++c) {
+    sum.weight[c] = random.uniform();
+    sum.begin[c] = sigma[c] * std::max(from - to, 0.);
+    sum.end[c] = sigma[c] * std::max(to - from, 0.);
   }
+  return sum;
+}
 
-  /// As in one coloured medium: all depths grow together, or all fall.
-  Sum in_one_medium(const std::array<double, channels>& sigma) {
-    Sum sum;
-    const double from = uniform(0, 6), to = uniform(0, 6);
-    for (std::size_t c = 0; c < channels; ++c) {
-      sum.weight[c] = uniform(0, 1);
-      sum.begin[c] = sigma[c] * std::max(from - to, 0.);
-      sum.end[c] = sigma[c] * std::max(to - from, 0.);
-    }
-    return sum;
+/// As where media of other colours lie before the light: each as it will.
+Sum in_several(test::Random& random) {
+  Sum sum;
+  for (std::size_t c = 0; c < channels; ++c) {
+    sum.weight[c] = random.uniform();
+    sum.begin[c] = random.uniform(0, 9);
+    sum.end[c] = random.uniform(0, 9);
   }
-
-  /// As where media of other colours lie before the light: each as it will.
-  Sum in_several() {
-    Sum sum;
-    for (std::size_t c = 0; c < channels; ++c)
-      sum.weight[c] = uniform(0, 1), sum.begin[c] = uniform(0, 9), sum.end[c] = uniform(0, 9);
-    return sum;
-  }
-
- private:
-  std::mt19937 engine_;
-};
+  return sum;
+}
 
 std::vector<Sum> all_sums() {
   std::vector<Sum> sums;
-  Sums draw(1);
+  test::Random random(1);
   for (int i = 0; i < 400; ++i)
     for (const std::array<double, channels>& sigma : {std::array{0.085, 0.082, 0.078},
                                                       {0.3, 0.35, 0.5},
@@ -83,8 +74,8 @@ std::vector<Sum> all_sums() {
                                                       {1., 1., 1.},
                                                       {0., 0., 0.},
                                                       {0., 1., 1e-9}})
-      sums.push_back(draw.in_one_medium(sigma));
-  for (int i = 0; i < 2000; ++i) sums.push_back(draw.in_several());
+      sums.push_back(in_one_medium(random, sigma));
+  for (int i = 0; i < 2000; ++i) sums.push_back(in_several(random));
   sums.push_back({{0, 0, 0}, {1, 2, 3}, {3, 2, 1}});             // nothing at all
   sums.push_back({{1, 0, 0}, {0, 2, 3}, {700, 2, 1}});           // one, beyond what floats hold
   sums.push_back({{1, 1, 1}, {0, 0, 0}, {1e18, 1e18, 1e18}});    // at once
@@ -99,9 +90,9 @@ TYPED_TEST_SUITE(ExponentialSums, test::Arithmetics, test::ArithmeticName);
 TYPED_TEST(ExponentialSums, hold_the_part_below_that_was_asked_for) {
   using F = TypeParam;
   Worst worst("part below, off by");
-  Sums random(2);
+  test::Random random(2);
   std::vector<double> parts = {0, 1e-30, 1e-9, 1e-3, 0.5, 1 - 0x1p-24, 1};
-  for (int i = 0; i < 25; ++i) parts.push_back(random.uniform(0, 1));
+  for (int i = 0; i < 25; ++i) parts.push_back(random.uniform());
   std::ranges::sort(parts);
   for (const Sum& sum : all_sums()) {
     ExponentialSum<F, channels> here;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <numeric>
-#include <random>
 
 #include "geometry/flush_to_zero.h"
 #include "geometry/world.h"
+#include "support/random.h"
 
 namespace airlight {
 namespace {
@@ -17,27 +17,6 @@ struct Ray {
   double t_min = 0, t_max = far_away;
 
   Vec3<double> operator()(double t) const { return origin + direction * t; }
-};
-
-class Random {
- public:
-  explicit Random(unsigned seed) : generator_(seed) {}
-  double operator()(double low = 0, double high = 1) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(generator_); }
-  Vec3<double> point(double half) {
-    return {(*this)(-half, half), (*this)(-half, half), (*this)(-half, half)};
-  }
-  Vec3<double> direction() {
-    for (;;) {
-      const Vec3<double> v = point(1);
-      if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
-    }
-  }
-
- private:
-  std::mt19937_64 generator_;
 };
 
 // --- scenes --------------------------------------------------------------------------------------
@@ -63,13 +42,13 @@ Object pane(Vec3<double> centre, Material material = {}) {
   return {"pane", mesh, material};
 }
 
-Object triangles(Random& random, int n, Material material) {
+Object triangles(test::Random& random, int n, Material material) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < std::uint32_t(n); ++i) {
-    const Vec3<double> centre = random.point(1);
+    const Vec3<double> centre = random.in_the_cube();
     for (int k = 0; k < 3; ++k) {
-      mesh.positions.push_back(narrow(centre + random.point(0.6)));
-      mesh.uvs.push_back({float(random(-2, 2)), float(random(-2, 2))});
+      mesh.positions.push_back(narrow(centre + random.in_the_cube() * 0.6));
+      mesh.uvs.push_back({float(random.uniform(-2, 2)), float(random.uniform(-2, 2))});
     }
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
@@ -82,45 +61,46 @@ Object sphere(Vec3<double> centre, double radius, Material material = {}) {
 }
 
 /// Alpha and red at random, with whole texels of nothing and of everything.
-Texture holes(Random& random, int width, int height) {
+Texture holes(test::Random& random, int width, int height) {
   Texture texture;
   texture.width = width;
   texture.height = height;
   for (int i = 0; i < width * height * 4; ++i)
-    texture.rgba.push_back(std::uint8_t(std::clamp(random(-100, 355), 0., 255.)));
+    texture.rgba.push_back(std::uint8_t(std::clamp(random.uniform(-100, 355), 0., 255.)));
   texture.wrap_u = Wrap::mirror;
   return texture;
 }
 
-Material any_material(Random& random) {
+Material any_material(test::Random& random) {
   Material material;
   switch (random.below(5)) {
     case 0:
       return material;
     case 1:
-      return glass(random(), {random(), random(), random()});
+      return glass(random.uniform(), {random.uniform(), random.uniform(), random.uniform()});
     case 2:
       return glass(0, Rgb<double>(1.));  // clear
     case 3:
-      material.cutoff = random(0.2, 0.8);
+      material.cutoff = random.uniform(0.2, 0.8);
       [[fallthrough]];
     default:
-      material.opacity = random(0.5, 1);
+      material.opacity = random.uniform(0.5, 1);
       material.opacity_texture = 0;
-      material.opacity_from_alpha = random() < 0.5;
-      if (random() < 0.5) material.tint = {random(), 1, random()};
+      material.opacity_from_alpha = random.uniform() < 0.5;
+      if (random.uniform() < 0.5) material.tint = {random.uniform(), 1, random.uniform()};
       return material;
   }
 }
 
 Scene any_scene(unsigned seed, bool opaque = false) {
-  Random random(seed);
+  test::Random random(seed);
   Scene scene;
   scene.textures.push_back(holes(random, 7, 4));
   for (int i = 0; i < 8; ++i) {
     const Material material = opaque ? Material() : any_material(random);
-    scene.objects.push_back(i % 3 == 2 ? sphere(random.point(1), random(0.1, 0.4), material)
-                                       : triangles(random, 4, material));
+    scene.objects.push_back(i % 3 == 2
+                                ? sphere(random.in_the_cube(), random.uniform(0.1, 0.4), material)
+                                : triangles(random, 4, material));
   }
   return scene;
 }
@@ -320,14 +300,14 @@ std::vector<Found> closest(const World& world, const std::vector<Ray>& rays) {
   return result;
 }
 
-std::vector<Ray> any_rays(Random& random, int n) {
+std::vector<Ray> any_rays(test::Random& random, int n) {
   std::vector<Ray> rays;
   for (int i = 0; i < n; ++i) {
-    Ray ray{random.point(2), {}};
-    ray.direction = normalize(random.point(1) - ray.origin);
-    if (i % 3 == 1) ray.t_max = random(0.1, 3);
-    if (i % 3 == 2) ray.t_min = random(0.1, 3);
-    if (i % 2) ray.direction = ray.direction * random(0.5, 2);
+    Ray ray{random.in_the_cube() * 2, {}};
+    ray.direction = normalize(random.in_the_cube() - ray.origin);
+    if (i % 3 == 1) ray.t_max = random.uniform(0.1, 3);
+    if (i % 3 == 2) ray.t_min = random.uniform(0.1, 3);
+    if (i % 2) ray.direction = ray.direction * random.uniform(0.5, 2);
     // As floats, so that every arithmetic sees the same ray.
     ray.origin = Vec3<double>(narrow(ray.origin));
     ray.direction = Vec3<double>(narrow(ray.direction));
@@ -359,7 +339,7 @@ TYPED_TEST(EveryWay, sees_what_brute_force_sees) {
     for (unsigned seed = 1; seed <= 6; ++seed) {
       const Scene scene = any_scene(seed, opaque);
       const World world(scene, TypeParam::visibility);
-      Random random(seed + 100);
+      test::Random random(seed + 100);
       const std::vector<Ray> rays = any_rays(random, n);
       const auto light = transmit<TypeParam>(world, rays);
       const auto hits = closest<TypeParam>(world, rays);
@@ -401,7 +381,7 @@ TYPED_TEST(EveryWay, sees_what_brute_force_sees) {
 TYPED_TEST(EveryWay, finds_nothing_in_an_empty_scene) {
   const Scene scene;
   const World world(scene, TypeParam::visibility);
-  Random random(1);
+  test::Random random(1);
   const auto rays = any_rays(random, 20);
   for (const auto& light : transmit<TypeParam>(world, rays)) EXPECT_EQ(light, Rgb<double>(1.));
   for (const auto& hit : closest<TypeParam>(world, rays)) EXPECT_FALSE(hit.found);
@@ -447,7 +427,7 @@ TYPED_TEST(EveryWay, stops_at_the_end_of_the_segment) {
 }
 
 TYPED_TEST(EveryWay, goes_from_one_surface_to_the_next) {
-  Random random(3);
+  test::Random random(3);
   for (unsigned seed = 20; seed < 26; ++seed) {
     const Scene scene = any_scene(seed);
     const World world(scene, TypeParam::visibility);
@@ -479,15 +459,15 @@ TYPED_TEST(EveryWay, goes_from_one_surface_to_the_next) {
 
 /// Rays from inside a ball of triangles at its edges, or its corners, as exactly as float allows.
 std::vector<Ray> rays_at_seams(const Scene& ball, int n, bool corners) {
-  Random random(5);
+  test::Random random(5);
   std::vector<Ray> rays;
   while (int(rays.size()) < n) {
     const auto& mesh = std::get<Mesh>(ball.objects[std::size_t(random.below(2))].geometry);
     const auto& triangle = mesh.triangles[std::size_t(random.below(int(mesh.triangles.size())))];
     const Vec3<double> a(mesh.positions[triangle[0]]), b(mesh.positions[triangle[1]]);
     if (a == b) continue;  // at a pole
-    const Vec3<double> aim = corners ? a : a + (b - a) * random(0.01, 0.99);
-    const Vec3<double> origin(narrow(random.point(0.5)));
+    const Vec3<double> aim = corners ? a : a + (b - a) * random.uniform(0.01, 0.99);
+    const Vec3<double> origin(narrow(random.in_the_cube() * 0.5));
     rays.push_back({origin, Vec3<double>(narrow(aim - origin))});
   }
   return rays;
@@ -515,10 +495,10 @@ TYPED_TEST(EveryWay, counts_a_pane_once_on_its_diagonal) {
   scene.objects = {pane({0, 0, 0}, glass(0.5, Rgb<double>(1.))),
                    pane({0, 0, -1}, glass(0.5, Rgb<double>(1.)))};
   const World world(scene, TypeParam::visibility);
-  Random random(11);
+  test::Random random(11);
   std::vector<Ray> rays;
   for (int i = 0; i < 1000; ++i) {
-    const double x = float(random(-0.5, 0.5)), w = float(random(-0.25, 0.25));
+    const double x = float(random.uniform(-0.5, 0.5)), w = float(random.uniform(-0.25, 0.25));
     rays.push_back({{x, x, 1}, {w, w, -1}});
   }
   for (const auto& light : transmit<TypeParam>(world, rays)) EXPECT_EQ(light.g, 0.25);
@@ -529,11 +509,11 @@ TYPED_TEST(EveryWay, knows_where_on_a_sphere_it_is) {
   Scene scene;
   scene.objects = {sphere(centre, 0.75)};
   const World world(scene, TypeParam::visibility);
-  Random random(7);
+  test::Random random(7);
   std::vector<Ray> rays;
   for (int i = 0; i < 2000; ++i) {
-    const Vec3<double> from = centre + random.direction() * random(1, 3);
-    rays.push_back({from, centre + random.direction() * random(0, 0.7) - from});
+    const Vec3<double> from = centre + random.direction() * random.uniform(1, 3);
+    rays.push_back({from, centre + random.direction() * random.uniform(0, 0.7) - from});
   }
   // Along and against the axes: the poles and the seam of longitudes.
   for (int axis = 0; axis < 3; ++axis)
@@ -599,7 +579,7 @@ TYPED_TEST(EveryWay, gives_nothing_to_lanes_that_are_not_active) {
 
 TYPED_TEST(EveryWay, survives_a_move_and_arrays_without_room_behind_them) {
   Scene scene = any_scene(9);
-  Random random(9);
+  test::Random random(9);
   const auto rays = any_rays(random, 500);
   const auto before = transmit<TypeParam>(World(scene, TypeParam::visibility), rays);
   for (Object& object : scene.objects)

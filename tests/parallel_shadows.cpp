@@ -4,53 +4,33 @@
 
 #include <gmock/gmock.h>
 
-#include <random>
-
 #include "error.h"
 #include "geometry/world.h"
+#include "support/random.h"
 
 namespace airlight {
 namespace {
 
 using ::testing::ElementsAre;
 
-class Random {
- public:
-  explicit Random(unsigned seed) : generator_(seed) {}
-  double operator()(double low = 0, double high = 1) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  Vec3<double> point(double half) {
-    return {(*this)(-half, half), (*this)(-half, half), (*this)(-half, half)};
-  }
-  Vec3<double> direction() {
-    for (;;) {
-      const Vec3<double> v = point(1);
-      if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
-    }
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
-
 Object ball(Vec3<double> centre, double radius) { return {"ball", Sphere{centre, radius}, {}}; }
 
 /// A tetrahedron, closed or (now and then) with a face missing.
-Object tetrahedron(Random& random) {
+Object tetrahedron(test::Random& random) {
   Mesh mesh;
-  const Vec3<double> centre = random.point(1);
-  for (int i = 0; i < 4; ++i) mesh.positions.push_back(Vec3<float>(centre + random.point(0.5)));
+  const Vec3<double> centre = random.in_the_cube();
+  for (int i = 0; i < 4; ++i)
+    mesh.positions.push_back(Vec3<float>(centre + random.in_the_cube() * 0.5));
   mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
-  if (random() < 0.3) mesh.triangles.pop_back();
+  if (random.uniform() < 0.3) mesh.triangles.pop_back();
   return {"tetrahedron", mesh, {}};
 }
 
 Scene any_scene(unsigned seed) {
-  Random random(seed);
+  test::Random random(seed);
   Scene scene;
   for (int i = 0; i < 4; ++i) {
-    scene.objects.push_back(ball(random.point(1), random(0.05, 0.4)));
+    scene.objects.push_back(ball(random.in_the_cube(), random.uniform(0.05, 0.4)));
     scene.objects.push_back(tetrahedron(random));
   }
   return scene;
@@ -68,20 +48,20 @@ TEST(ParallelShadows, agree_with_shadow_rays) {
   for (unsigned seed = 1; seed <= 32; ++seed) {
     const Scene scene = any_scene(seed);
     const World world(scene, Visibility::analytic);
-    Random random(seed + 1000);
+    test::Random random(seed + 1000);
     const Vec3<double> travel = seed % 4 ? random.direction() : Vec3<double>(0, -1, 0);
     // The plane where light starts cuts some of the objects.
-    const double start = seed % 2 ? -far_away : dot(random.point(0.7), travel);
+    const double start = seed % 2 ? -far_away : dot(random.in_the_cube() * 0.7, travel);
     const ParallelShadows shadows(scene, travel, start);
     for (int k = 0; k < 100; ++k) {
-      const Vec3<double> origin = random.point(2);
+      const Vec3<double> origin = random.in_the_cube() * 2;
       // Camera rays along the light are their own case.
       const Vec3<double> direction = k % 10 == 0   ? travel
                                      : k % 10 == 1 ? -travel
-                                                   : normalize(random.point(0.7) - origin);
+                                                   : normalize(random.in_the_cube() * 0.7 - origin);
       const double reach = dot(origin, travel) - start, nearing = dot(direction, travel);
       if (reach < 0) continue;
-      double t_max = random(1, 5);
+      double t_max = random.uniform(1, 5);
       if (nearing < 0) t_max = std::min(t_max, reach / -nearing);
       const auto parts_lit = lit(shadows, origin, direction, t_max);
       std::vector<double> ends = {0, t_max};
@@ -92,7 +72,7 @@ TEST(ParallelShadows, agree_with_shadow_rays) {
       }
       parts += int(parts_lit.size());
       std::vector<double> ts;
-      for (int i = 0; i < 100; ++i) ts.push_back(random(0, t_max));
+      for (int i = 0; i < 100; ++i) ts.push_back(random.uniform(0, t_max));
       // Just inside and outside of every end.
       for (const double end : ends) ts.insert(ts.end(), {end - 1e-7, end + 1e-7});
       for (const double t : ts) {
@@ -136,13 +116,13 @@ TEST(ParallelShadows, of_a_sphere_is_half_a_cylinder) {
 
 TEST(ParallelShadows, leave_no_gap_where_triangles_meet) {
   // A ceiling of many triangles over a long ray: one shadow.
-  Random random(4);
+  test::Random random(4);
   Mesh mesh;
   const int n = 30;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j)
-      mesh.positions.push_back(
-          {float(i) / n + float(random(0, 0.02)), float(random(1, 1.2)), float(j) / n});
+      mesh.positions.push_back({float(i) / n + float(random.uniform(0, 0.02)),
+                                float(random.uniform(1, 1.2)), float(j) / n});
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const auto at = [&](int k, int l) { return std::uint32_t((i + k) * (n + 1) + j + l); };
@@ -153,8 +133,10 @@ TEST(ParallelShadows, leave_no_gap_where_triangles_meet) {
   scene.objects = {{"ceiling", mesh, {}}};
   const ParallelShadows shadows(scene, normalize(Vec3<double>(0.1, -1, 0.03)));
   for (int k = 0; k < 1000; ++k) {
-    const Vec3<double> from(random(0.3, 0.7), random(0, 0.5), random(0.3, 0.7));
-    const Vec3<double> to(random(0.3, 0.7), random(0, 0.5), random(0.3, 0.7));
+    const Vec3<double> from(random.uniform(0.3, 0.7), random.uniform(0, 0.5),
+                            random.uniform(0.3, 0.7));
+    const Vec3<double> to(random.uniform(0.3, 0.7), random.uniform(0, 0.5),
+                          random.uniform(0.3, 0.7));
     EXPECT_THAT(lit(shadows, from, to - from, 1), ElementsAre());
   }
 }
