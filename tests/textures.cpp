@@ -8,6 +8,7 @@
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/output.h"
+#include "support/random.h"
 #include "support/scratch.h"
 
 using namespace airlight;
@@ -105,6 +106,19 @@ TEST(Texture, stays_inside_for_any_coordinates) {
         EXPECT_TRUE(red >= 0 && red <= 1 + rounding) << u << ' ' << v;
       }
   }
+}
+
+TEST(Texture, gives_one_channel_as_it_gives_all) {
+  Texture t{3, 2, {}};
+  for (int i = 0; i < 24; ++i) t.rgba.push_back(std::uint8_t(37 * i));
+  test::Random random(1);
+  for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror})
+    for (const bool srgb : {false, true})
+      for (int i = 0; i < 200; ++i) {
+        t.wrap_u = t.wrap_v = wrap, t.srgb = srgb;
+        const auto u = float(random.uniform(-3, 3)), v = float(random.uniform(-3, 3));
+        for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(t.sample(u, v, c), t.sample(u, v)[c]);
+      }
 }
 
 TEST(Texture, is_loaded_from_a_file_with_its_codes_as_they_are) {

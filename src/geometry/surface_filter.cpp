@@ -32,7 +32,7 @@ double SurfaceFilter::cut(double opacity) const noexcept {
 float SurfaceFilter::opacity(std::uint32_t primitive, float u, float v) const noexcept {
   if (!varies()) return float(opacity_);
   const auto [s, t] = texture_coordinates(*object_, primitive, u, v);
-  return float(cut(object_->material.opacity * double(texture_->sample(s, t)[channel_])));
+  return float(cut(object_->material.opacity * double(texture_->sample(s, t, channel_))));
 }
 
 namespace {

@@ -28,18 +28,17 @@ Neighbours neighbours(float x, int size, Wrap wrap) {
   if (!std::isfinite(x)) x = 0;
   if (wrap == Wrap::clamp)
     x = std::fmin(std::fmax(x, 0.0F), 1.0F);
-  else if (wrap == Wrap::repeat)
-    x -= std::floor(x);
-  else
-    x -= 2 * std::floor(x / 2);
+  else if (!(x >= 0 && x < 1))  // seldom: std::floor is a call on machines of old
+    x -= wrap == Wrap::repeat ? std::floor(x) : 2 * std::floor(x / 2);
   const float texel = x * float(size) - 0.5F;  // from -1/2 to the period - 1/2
-  const float below = std::floor(texel);
-  const int i = int(below);
-  return {wrapped(i, size, wrap), wrapped(i + 1, size, wrap), texel - below};
+  const int i = texel < 0 ? -1 : int(texel);
+  return {wrapped(i, size, wrap), wrapped(i + 1, size, wrap), texel - float(i)};
 }
 
-float linear(const Texture& texture, std::uint8_t code) {
-  return texture.srgb ? linear_of_srgb[code] : float(code) / 255;
+/// A channel of a texel as a number; channel 3 is A.
+float value(const Texture& texture, const std::uint8_t* texel, std::size_t channel) {
+  const std::uint8_t code = texel[channel];
+  return texture.srgb && channel < 3 ? linear_of_srgb[code] : float(code) / 255;
 }
 
 /// The mean of four texels about a point; add(sum, texel, weight) adds one of them.
@@ -63,16 +62,22 @@ Sum bilinear(const Texture& texture, float u, float v, Add&& add) {
 
 std::array<float, 4> Texture::sample(float u, float v) const {
   const auto add = [&](std::array<float, 4>& sum, const std::uint8_t* texel, float weight) {
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * linear(*this, texel[c]);
-    sum[3] += weight * (float(texel[3]) / 255);
+    for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * value(*this, texel, c);
   };
   return bilinear<std::array<float, 4>>(*this, u, v, add);
 }
 
+float Texture::sample(float u, float v, std::size_t channel) const {
+  const auto add = [&](float& sum, const std::uint8_t* texel, float weight) {
+    sum += weight * value(*this, texel, channel);
+  };
+  return bilinear<float>(*this, u, v, add);
+}
+
 std::array<float, 3> Texture::over_black(float u, float v) const {
   const auto add = [&](std::array<float, 3>& sum, const std::uint8_t* texel, float weight) {
-    const float covers = weight * (float(texel[3]) / 255);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += covers * linear(*this, texel[c]);
+    const float covers = weight * value(*this, texel, 3);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += covers * value(*this, texel, c);
   };
   return bilinear<std::array<float, 3>>(*this, u, v, add);
 }

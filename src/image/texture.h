@@ -30,6 +30,9 @@ struct Texture {
   /// Coordinates that are not finite count as 0.
   std::array<float, 4> sample(float u, float v) const;
 
+  /// One channel of the same, 0 to 3, at a quarter of the cost.
+  float sample(float u, float v, std::size_t channel) const;
+
   /// The same of the texture laid on black: every texel's colour counts as far as it is opaque, so
   /// that what hides in transparent texels shows nowhere.
   std::array<float, 3> over_black(float u, float v) const;
