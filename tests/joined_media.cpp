@@ -261,6 +261,20 @@ TEST(JoinedMedia, are_drawn_from_in_proportion_to_what_reaches_the_camera) {
   }
 }
 
+TEST(JoinedMedia, scatter_nothing_where_a_ray_only_touches_them) {
+  // The ray leaves the second body where it starts, so that the plane of that body's lower face
+  // lies in the middle of what is left.
+  std::vector<Medium> media(2);
+  media[0].shape = Box{{-1, -1, -1}, {0, 1, 1}};
+  media[1].shape = Box{{0, -1, -1}, {1, 1, 0}};
+  for (Medium& medium : media) medium.sigma_t = medium.sigma_s = Rgb<double>(1.);
+  const test::BoxRay ray{{0, 0, 0.5}, normalize(Vec3<double>{-1, 0, -1}), {0, 0, -1}, std::sqrt(2)};
+  const Joined one(std::span<const Medium>(media).first(1)), both(media);
+  const auto alone = section_of<double, 3>(one, ray, media[0]);
+  const auto joined = section_of<double, 3>(both, ray, media[0]);
+  EXPECT_NEAR(joined.integral[0] / alone.integral[0], 1, 1e-14);
+}
+
 TEST(JoinedMedia, that_touch_and_are_alike_are_one) {
   Worst worst("a box as two halves, relative error of T / (1 + depth)");
   Random random(9);

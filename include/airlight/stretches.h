@@ -47,8 +47,10 @@ struct Stretches {
   /// The part of stretch j before t.  [m]
   F length_before(int j, F t) const noexcept { return max(min(t, leave[j]) - enter[j], F(0)); }
 
-  /// Whether t lies in stretch j.
-  Mask<F> holds(int j, F t) const noexcept { return (t >= enter[j]) & (t <= leave[j]); }
+  /// Whether t lies in stretch j; in none that the ray misses, not even where that is put.
+  Mask<F> holds(int j, F t) const noexcept {
+    return (t >= enter[j]) & (t <= leave[j]) & (leave[j] > enter[j]);
+  }
 
   /// Optical depth from the ray's origin to t.
   Rgb<F> depth(F t) const noexcept {
