@@ -148,6 +148,13 @@ TEST(Animation, takes_its_keys_in_seconds) {
   EXPECT_EQ(scene_at(keys + "[render]\nfps = 10\n", 5).camera.fov, 25);
 }
 
+TEST(Animation, steps_at_the_frame_that_its_seconds_name) {
+  // In doubles 0.28 * 25 is a little more than 7.
+  const std::string keys = zoom("seconds = [0, 0.28]\nvalues = [20, 40]\ninterpolation = 'step'\n");
+  EXPECT_EQ(scene_at(keys + "[render]\nfps = 25\n", 6).camera.fov, 20);
+  EXPECT_EQ(scene_at(keys + "[render]\nfps = 25\n", 7).camera.fov, 40);
+}
+
 TEST(Animation, changes_vectors_colours_and_their_components) {
   const std::string text = std::string(film) + R"(
 [[animation]]

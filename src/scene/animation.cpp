@@ -20,6 +20,12 @@ struct Track {
   Cursor values() const { return *at.find("values"); }
 };
 
+/// A time in frames; one that is a whole frame but for the rounding of its decimals is that frame.
+double in_frames(double seconds, double fps) {
+  const double time = seconds * fps, whole = std::round(time);
+  return std::abs(time - whole) <= 1e-12 * std::abs(whole) ? whole : time;
+}
+
 std::vector<double> times_of(const AnimationDocument& document, const Cursor& at, double fps) {
   if (document.frames.has_value() == document.seconds.has_value())
     at.complain(fmt::format("{} when its keys are; accepted: frames, or seconds",
@@ -34,7 +40,7 @@ std::vector<double> times_of(const AnimationDocument& document, const Cursor& at
     at.find("values")->complain(fmt::format("has {} values for {} keys: accepted is one for each",
                                             document.values->size(), times.size()));
   if (document.seconds)
-    for (double& time : times) time *= fps;
+    for (double& time : times) time = in_frames(time, fps);
   return times;
 }
 
