@@ -172,6 +172,26 @@ TEST(Polyhedron, holds_every_point_of_a_random_cloud) {
   }
 }
 
+TEST(Polyhedron, touches_another_where_they_share_corners_in_single_precision) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int round = 0; round < 50; ++round) {
+    const Vec x = normalize(Vec{number(random), number(random), number(random)});
+    const Vec y = normalize(cross(x, Vec{number(random), number(random), number(random)}));
+    const auto slab = [&](double from, double to) {
+      std::vector<Vec> points;
+      for (const Vec& p : cube_points()) {
+        const Vec q = x * (p.x < 0 ? from : to) + y * p.y + cross(x, y) * p.z;
+        points.push_back({float(q.x), float(q.y), float(q.z)});
+      }
+      return hull_of(points);
+    };
+    const Convex left = slab(-1, 0.3);
+    EXPECT_FALSE(overlap(left, slab(0.3, 1))) << round;
+    EXPECT_TRUE(overlap(left, slab(0.3 - 1e-5, 1))) << round;
+  }
+}
+
 TEST(Polyhedron, refuses_points_that_span_nothing) {
   const auto error_with = [](const std::vector<Vec>& points) {
     return error_of([&] { hull_of(points); });

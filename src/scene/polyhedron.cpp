@@ -38,7 +38,9 @@ bool is_endless(const Planes& planes) {
 }
 
 /// Where three planes meet and no other cuts the point off, each point once for every three planes.
-std::vector<Vec> corners_of(const Planes& planes) {
+/// Normals that span less than `least_volume` meet nowhere: the less they span, the less certain is
+/// the point, and whether it is cut off.
+std::vector<Vec> corners_of(const Planes& planes, double least_volume = 1e-12) {
   std::vector<Vec> corners;
   double farthest = 0;
   for (const Plane& plane : planes) farthest = std::max(farthest, std::abs(plane.h));
@@ -48,7 +50,7 @@ std::vector<Vec> corners_of(const Planes& planes) {
         const Plane &a = planes[i], &b = planes[j], &c = planes[k];
         const Vec bc = cross(b.n, c.n), ca = cross(c.n, a.n), ab = cross(a.n, b.n);
         const double volume = dot(a.n, bc);
-        if (std::abs(volume) < 1e-12) continue;
+        if (std::abs(volume) < least_volume) continue;
         const Vec p = (a.h * bc + b.h * ca + c.h * ab) * (1 / volume);
         const double slack = 1e-12 * (farthest + length(p)) / std::abs(volume);
         const auto cuts_off = [&](const Plane& plane) { return dot(plane.n, p) - plane.h > slack; };
@@ -163,7 +165,9 @@ bool overlap(const Convex& a, const Convex& b) {
   for (const Plane& plane : planes_of(b))
     both.push_back({plane.n, plane.h + dot(plane.n, between)});
   for (Plane& plane : both) plane.h -= tolerance * std::min(size_a, size_b);
-  return !corners_of(both).empty();
+  // Faces that touch are parallel but for rounding. What is not flat has other corners than theirs.
+  constexpr double certain = 1e-5;
+  return !corners_of(both, certain).empty();
 }
 
 Convex hull_of(const std::vector<Vec>& given) {
