@@ -709,6 +709,18 @@ TEST(SceneFile, finds_media_that_run_into_each_other_and_a_camera_at_its_target)
   EXPECT_THAT(told("camera.position.2", "[5, 0]"), EndsWith("(at frame 4)"));
 }
 
+TEST(Frames, find_a_plate_that_is_not_there_before_the_first) {
+  const Desk desk;
+  ASSERT_EQ(desk.render("plate.#.png", {"--frames", "0..1"}).status, 0);
+  const std::string plates = desk.folder / "plate.#.png";
+  const Outcome outcome = desk.render("out.#.png", {"--frames", "0..2", "--background", plates});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, fmt::format("--background {}: background_image names a picture that is "
+                                     "not there: {} (at frame 2)\n",
+                                     plates, desk.folder / "plate.2.png"));
+  EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml", "plate.0.png", "plate.1.png"));
+}
+
 TEST(Frames, are_all_checked_before_the_first_is_rendered) {
   const Desk desk;
   write_bytes(desk.scene, film + zoom("frames = [0, 9]\nvalues = [20, 220]\n"));

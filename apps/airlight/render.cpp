@@ -252,8 +252,8 @@ int render_frames(const Flags& flags) {
     Outputs outputs = flags.outputs.of_frame(frame);
     manner.checkpoint = airlight::numbered(flags.checkpoint, frame);
     outputs.check(manner.files());
-    file.check(frame);
     if (flags.skip_existing && outputs.exist()) continue;
+    file.check(frame);
     wanted.push_back(frame);
     if (!manner.checkpoint.empty()) check_place(manner.checkpoint_plan());
   }

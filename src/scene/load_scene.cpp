@@ -77,6 +77,8 @@ class SceneFile::Content {
     return scene;
   }
 
+  const Files& files() const { return files_; }
+
  private:
   Value document_;
   Files files_;
@@ -101,6 +103,7 @@ void SceneFile::check(std::int64_t frame) const {
   const SceneDocument document = read_scene_document(value);
   try {
     check_without_files(document, value);
+    check_plate(document, value, content_->files());
   } catch (const Error& error) {
     throw Error(fmt::format("{} (at frame {})", error.what(), frame));
   }

@@ -37,8 +37,8 @@ class SceneFile {
   Scene scene(std::int64_t frame) const;
 
   /// Throws what `scene` would throw for a value that is unknown, of another kind or out of its
-  /// range in this frame, for its camera, and for media that overlap. It opens no file and builds
-  /// no object: so that a long run fails early.
+  /// range in this frame, for its camera, for media that overlap, and for a picture behind it that
+  /// is not there. It opens no file and builds no object: so that a long run fails early.
   void check(std::int64_t frame) const;
 
   class Content;  ///< what has been read

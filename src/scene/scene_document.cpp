@@ -45,6 +45,12 @@ Parts parts_of(const Objects& objects, const Cursor& at, const Files& files, con
       objects);
 }
 
+/// The picture behind the scene at its frame.
+std::filesystem::path plate_of(const SceneDocument& document, const Cursor& at,
+                               const Files& files) {
+  return numbered(files.path(*document.background_image, at), document.render.frame);
+}
+
 /// Combinations that each part of the scene accepts by itself.
 void check_together(const Scene& scene, const Cursor& at) {
   for (std::size_t i = 0; i < scene.media.size(); ++i)
@@ -76,6 +82,14 @@ void check_without_files(const SceneDocument& document, const Value& value) {
   if (const auto reason = cannot_be_joined(media)) at.at_or_here("media").complain(*reason);
 }
 
+void check_plate(const SceneDocument& document, const Value& value, const Files& files) {
+  if (!document.background_image) return;
+  const Cursor at = Cursor(value).at_or_here("background_image");
+  const std::filesystem::path plate = plate_of(document, at, files);
+  if (!std::filesystem::exists(plate))
+    at.complain("names a picture that is not there: " + plate.string());
+}
+
 Scene scene_of(const Value& value, const Files& files) {
   const Cursor at(value);
   const SceneDocument document = read_scene_document(value);
@@ -86,9 +100,8 @@ Scene scene_of(const Value& value, const Files& files) {
   scene.background = document.background;
   if (document.background_image) {
     const Cursor here = at.at_or_here("background_image");
-    scene.background_image = load_background_image(
-        numbered(files.path(*document.background_image, here), document.render.frame),
-        scene.resolution, here, scene.assumptions);
+    scene.background_image = load_background_image(plate_of(document, here, files),
+                                                   scene.resolution, here, scene.assumptions);
   }
   scene.ambient = document.ambient;
   scene.render = document.render;

@@ -51,6 +51,9 @@ SceneDocument read_scene_document(const Value& document);
 /// files that it names: its camera, its settings, media that overlap.
 void check_without_files(const SceneDocument& document, const Value& value);
 
+/// Throws Error if there is no file where the picture behind the scene should be at its frame.
+void check_plate(const SceneDocument& document, const Value& value, const Files& files);
+
 /// What a document means. Throws Error, one line, for everything that cannot be accepted.
 Scene scene_of(const Value& document, const Files& files);
 
