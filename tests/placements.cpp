@@ -200,7 +200,7 @@ TYPED_TEST(EveryPlacement, keeps_strata) {
 }
 
 /// z-scores of the two sums of a scene, half in the shadow, against the exact integrals.
-template <class Scene, class Section, class Placed>
+template <class Scene, class Section, PlacedOn<Section> Placed>
 void judge(const Scene& scene, const Section& section, const Placed& placed, Random& random,
            std::vector<double>& z, Worst& noise) {
   constexpr int n = 64, seeds = 1500;

@@ -1,5 +1,6 @@
 #pragma once
 #include "section.h"
+#include "shapes/unbounded.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
 
@@ -26,16 +27,29 @@ Channels<F, channels> balanced_weights(const Channels<F, channels>& reaching, F 
   return result;
 }
 
-/// Where samples go along a ray: the pair of a sample and its density.
+/// A placement on one section of a ray, the pair of a sample and its density: what estimators ask
+/// of it.
 ///
-///     placed = placement.on(section, strength)   strength: what a metre scatters, by channel
 ///     placed.sample(u)           t in [0, t_max], monotone in u (in each part of a mix)  [m]
 ///     placed.pdf(t, at)          its density; at = section.at(t)  [1/m]
 ///     placed.weights(t, at)      section.reaching(at) / pdf for each channel  [m]
+template <class P, class Section, class F = decltype(Section::t_max)>
+concept PlacedOn = requires(const P placed, F u, F t, typename Section::Point at) {
+  { placed.sample(u) } -> std::same_as<F>;
+  { placed.pdf(t, at) } -> std::same_as<F>;
+  { placed.weights(t, at) } -> std::same_as<Channels<F, Section::channels>>;
+};
+
+/// Where samples go along a ray.
+///
+///     placement.on(section, strength)   `PlacedOn` the section; strength: what a metre scatters,
+///                                       by channel
 template <class P>
-concept Placement = requires {
+concept Placement = requires(const P placement, Section<double, 3, Unbounded::Space> section,
+                             Channels<double, 3> strength) {
   { P::name } -> std::convertible_to<const char*>;
   { P::meaning } -> std::convertible_to<const char*>;
+  { placement.on(section, strength) } -> PlacedOn<Section<double, 3, Unbounded::Space>>;
 };
 
 }  // namespace airlight::inline AIRLIGHT_ISA

@@ -177,6 +177,7 @@ struct Sampled {
         [&](const Placement auto& place) {
           const auto placed =
               place.on(section, carried<channels, Space>(medium, light, ray.dimmed));
+          static_assert(PlacedOn<decltype(placed), decltype(section)>);
           const auto distances =
               sampler.stream(share ? stream::light_choice : stream::distance(light_index));
           using Sample = Drawn<F, typename decltype(section)::Point>;
