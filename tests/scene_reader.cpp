@@ -430,9 +430,9 @@ TEST(SceneReader, refuses_directional_light_in_an_endless_medium) {
       "[[media]]\nsigma_s = 1\nsigma_a = 0\nshape = {type = \"unbounded\"}\n";
   EXPECT_EQ(error_of(endless), "");
   EXPECT_EQ(error_of(endless + sun),
-            "fog.toml:4:9: media.0.shape is unbounded, where a directional light never arrives: "
-            "all of it is lost on its way from infinitely far; give the medium a shape with an "
-            "end, or leave out the light");
+            "fog.toml:4:9: media.0.shape does not fit the lights: a directional light never "
+            "arrives in an unbounded medium, as all of it is lost on its way from infinitely far; "
+            "give the medium a shape with an end, or leave out the light");
 }
 
 // --- overrides -----------------------------------------------------------------------------------
@@ -523,8 +523,9 @@ TEST(Overrides, are_the_place_of_errors_that_come_of_them) {
   EXPECT_THAT(error_of(fog, {"media.0.shape.min.1=2"}), StartsWith("-D media.0.shape.min.1=2: "));
   EXPECT_THAT(error_of(fog, {"media.0.shape.type=convex"}),
               StartsWith("-D media.0.shape.type=convex: media.0.shape lacks planes, or points"));
-  EXPECT_THAT(error_of(fog + sun, {"media.0.shape.type=unbounded"}),
-              StartsWith("-D media.0.shape.type=unbounded: media.0.shape is unbounded"));
+  EXPECT_THAT(
+      error_of(fog + sun, {"media.0.shape.type=unbounded"}),
+      StartsWith("-D media.0.shape.type=unbounded: media.0.shape does not fit the lights: "));
   EXPECT_THAT(error_of("[camera]\ntarget = [1, 2, 3]\n", {"camera.position=[1, 2, 3]"}),
               StartsWith("-D camera.position=[1, 2, 3]: camera looks nowhere"));
   EXPECT_THAT(error_of("[camera]\nup = [0, 1, 0]\n", {"camera.position=[0, 5, 0]"}),

@@ -126,15 +126,6 @@ Rgb<F> to_rgb(const std::array<F, channels>& c) noexcept {
     return {c[0], c[1], c[2]};
 }
 
-/// Why no estimator serves a light in a medium; null: some do.
-inline const char* never_arrives(const Medium& medium, const Lights& light) noexcept {
-  return std::holds_alternative<Unbounded>(medium.shape) &&
-                 std::holds_alternative<Directional>(light)
-             ? "a directional light never arrives in an unbounded medium; give the medium a box or "
-               "a convex shape"
-             : nullptr;
-}
-
 /// A way to estimate the light that a medium scatters once from a light to the camera. It says what
 /// it can't serve with a reason; null: it can.
 template <class E>

@@ -1,5 +1,8 @@
 #include "scene/scene_document.h"
 
+#include <airlight/never_arrives.h>
+#include <fmt/format.h>
+
 #include <bit>
 
 #include "image/numbered.h"
@@ -55,11 +58,9 @@ std::filesystem::path plate_of(const SceneDocument& document, const Cursor& at,
 void check_together(const Scene& scene, const Cursor& at) {
   for (std::size_t i = 0; i < scene.media.size(); ++i)
     for (const Lights& light : scene.lights)
-      if (std::holds_alternative<Unbounded>(scene.media[i].shape) &&
-          std::holds_alternative<Directional>(light))
+      if (const char* reason = never_arrives(scene.media[i], light))
         at.at_or_here("media").element(i).at_or_here("shape").complain(
-            "is unbounded, where a directional light never arrives: all of it is lost on its way "
-            "from infinitely far; give the medium a shape with an end, or leave out the light");
+            fmt::format("does not fit the lights: {}", reason));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 #include "../lit_part.h"
+#include "../never_arrives.h"
 
 namespace airlight::inline AIRLIGHT_ISA {
 

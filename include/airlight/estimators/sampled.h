@@ -6,6 +6,7 @@
 #include "../lit_part.h"
 #include "../math/sort.h"
 #include "../math/warp.h"
+#include "../never_arrives.h"
 #include "../placements.h"
 
 namespace airlight::inline AIRLIGHT_ISA {

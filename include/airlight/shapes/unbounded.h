@@ -3,8 +3,7 @@
 
 namespace airlight::inline AIRLIGHT_ISA {
 
-/// A medium without end. Light from infinitely far away never arrives in it: it dims and glows
-/// only.
+/// A medium without end: it dims what is behind it and glows.
 struct Unbounded {
   static constexpr auto name = "unbounded";
   static constexpr auto meaning = "everywhere; a directional light never arrives in it";
