@@ -5,10 +5,35 @@
 
 namespace airlight::inline AIRLIGHT_ISA {
 
+/// What a section asks of a space in pieces.
+///
+///     Space::one_medium                         whether pieces hold lengths, for one medium fills
+///                                               all
+///     Space::most_stretches                     that a ray may have inside
+///     space.stretches(ray, medium)              the ray's own stretches inside
+///     space.cut(ray, w, t_max, inside, pieces)  fills the pieces for light from w
+///     space.seen(ray, t, w, inside)             a point of them, without the others
+///     Space::set_scale(pieces, inside, cosine)  what their numbers are multiples of
+///
+/// The space of a shape, too, lets light start at a plane: a `LightStart` more for cut and seen.
+template <class Space, class F, int channels>
+concept CutsInPieces = InPieces<Space> &&
+    requires(const Space space, const LocalRay<F> ray, const Medium medium, Vec3<F> w, F t,
+             const typename Space::template StretchesOf<F> inside,
+             typename Space::template PiecesOf<F, channels> pieces) {
+  { Space::one_medium } -> std::convertible_to<bool>;
+  { Space::most_stretches } -> std::convertible_to<int>;
+  { space.stretches(ray, medium) } -> std::same_as<typename Space::template StretchesOf<F>>;
+  space.template cut<channels>(ray, w, t, inside, pieces);
+  { space.template seen<channels>(ray, t, w, inside) } -> std::same_as<decltype(pieces.at(t))>;
+  Space::set_scale(pieces, inside, t);
+};
+
 /// A section of a camera ray through media whose optical depth is linear in pieces. It answers what
 /// `Section` does elsewhere; what scatters is part of it, as it changes along the ray.
 template <Real F, int channels_, InPieces Space>
 struct Section<F, channels_, Space> {
+  static_assert(CutsInPieces<Space, F, channels_>);
   static constexpr int channels = channels_;
   using Inside = typename Space::template StretchesOf<F>;
   using Cut = typename Space::template PiecesOf<F, channels>;

@@ -34,7 +34,7 @@ inline constexpr Scalar<F> parallel_below = Scalar<F>(std::same_as<F, double> ? 
 ///     space.outward(w)                    what is shared by all points when light comes from w
 ///     (local) space.way_out(ray, outward, t_max)  the way out for a ray that starts inside
 ///
-/// or, of a concave one, what `InPieces` asks for.
+/// or, of a concave one, what `CutsInPieces` asks for.
 template <class S>
 concept Shape = requires(const S shape, LocalRay<double> ray, Vec3<double> v) {
   { S::name } -> std::convertible_to<const char*>;
@@ -61,13 +61,9 @@ struct LightStart {
   F operator()(F t) const noexcept { return fma(b, t, a); }
 };
 
-/// A space in which the optical depth of the whole way is not concave, as in one convex body, but
-/// linear in pieces: of media side by side, or inside a concave boundary.
-///
-///     Space::one_medium                   whether pieces hold lengths, for one medium fills all
-///     space.stretches(ray, medium)        the ray's own stretches inside
-///     space.cut(ray, w, t_max, stretches, pieces, start)  fills `Pieces` for light from w
-///     space.seen(ray, t, w, stretches, start)  a point of them, without the others
+/// A space that says that the optical depth of the whole way is not concave in it, as in one convex
+/// body, but linear in pieces: of media side by side, or inside a concave boundary. What it then
+/// owes, `CutsInPieces` tells.
 template <class Space>
 concept InPieces = requires {
   requires Space::in_pieces;
