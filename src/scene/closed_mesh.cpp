@@ -1,6 +1,5 @@
 #include "scene/closed_mesh.h"
 
-#include <airlight/math/vec.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <set>
 
 #include "error.h"
+#include "scene/bounds.h"
 
 namespace airlight {
 namespace {
@@ -56,15 +56,11 @@ Soup welded(std::span<const ClosedMesh::Point> points, std::span<const Triangle>
     soup.numbers.push_back(k);
   }
   if (soup.triangles.empty()) throw Error("encloses nothing: it has no triangles");
-  Vec low = soup.corners[soup.triangles[0][0]], high = low;
+  Bounds bounds;
   for (const Triangle& t : soup.triangles)
-    for (const std::uint32_t i : t) {
-      const Vec& p = soup.corners[i];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  soup.centre = (low + high) * 0.5;
-  soup.size = length(high - low) / 2;
+    for (const std::uint32_t i : t) bounds.extend(soup.corners[i]);
+  soup.centre = bounds.centre();
+  soup.size = length(bounds.size()) / 2;
   for (Vec& p : soup.corners) p = p - soup.centre;
   return soup;
 }
@@ -171,25 +167,18 @@ void turn_out(Soup& soup) {
     if (inward[soup.components[k]]) flip(soup.triangles[k]);
 }
 
-/// The box around some triangles.
-struct Bounds {
-  Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-
-  void include(const Vec& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  bool meets(const Vec& middle, const Vec& half) const {
-    for (int i = 0; i < 3; ++i)
-      if (low[i] > middle[i] + half[i] || high[i] < middle[i] - half[i]) return false;
-    return true;
-  }
-};
-
 Bounds bounds_of(const Soup& soup, std::size_t k) {
   Bounds bounds;
-  for (int i = 0; i < 3; ++i) bounds.include(soup.corner(k, i));
+  for (int i = 0; i < 3; ++i) bounds.extend(soup.corner(k, i));
   return bounds;
+}
+
+bool meet(const Bounds& bounds, const ClosedMesh::Node& node) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (bounds.min[int(i)] > node.middle[i] + node.half[i] ||
+        bounds.max[int(i)] < node.middle[i] - node.half[i])
+      return false;
+  return true;
 }
 
 /// The tree over order[first] to order[end − 1], halved across its longest side.
@@ -201,19 +190,19 @@ void grow(const Soup& soup, std::vector<std::size_t>& order, std::size_t first, 
     return (soup.corner(k, 0) + soup.corner(k, 1) + soup.corner(k, 2)) * (1. / 3);
   };
   for (std::size_t i = first; i < end; ++i) {
-    for (int j = 0; j < 3; ++j) bounds.include(soup.corner(order[i], j));
-    middles.include(middle_of(order[i]));
+    for (int j = 0; j < 3; ++j) bounds.extend(soup.corner(order[i], j));
+    middles.extend(middle_of(order[i]));
   }
   const double slack = 1e-9 * soup.size;
-  const Vec middle = (bounds.low + bounds.high) * 0.5;
-  const Vec half = (bounds.high - bounds.low) * 0.5 + Vec(slack, slack, slack);
+  const Vec middle = bounds.centre();
+  const Vec half = bounds.size() * 0.5 + Vec(slack, slack, slack);
   const std::size_t node = tree.size();
   tree.push_back({{middle.x, middle.y, middle.z}, {half.x, half.y, half.z}, 0, 0, 0});
   if (end - first <= leaf) {
     tree[node].first = std::uint32_t(first);
     tree[node].count = std::uint32_t(end - first);
   } else {
-    const Vec extent = middles.high - middles.low;
+    const Vec extent = middles.size();
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
                      : extent.y >= extent.z                       ? 1
                                                                   : 2;
@@ -325,12 +314,12 @@ void check_crossings(const Soup& soup, const std::vector<std::size_t>& order,
   for (std::size_t k = 0; k < soup.triangles.size(); ++k) {
     const Bounds bounds = bounds_of(soup, k);
     for (std::size_t n = 0; n < tree.size();) {
-      const auto& [middle, half, first, count, next] = tree[n];
-      if (!bounds.meets({middle[0], middle[1], middle[2]}, {half[0], half[1], half[2]})) {
-        n = next;
+      const ClosedMesh::Node& node = tree[n];
+      if (!meet(bounds, node)) {
+        n = node.next;
         continue;
       }
-      for (std::size_t i = first; i < first + count; ++i)
+      for (std::size_t i = node.first; i < node.first + node.count; ++i)
         if (order[i] > k) crossings.see(k, order[i]);
       ++n;
     }
