@@ -199,7 +199,6 @@ bool goes_through_centre(const RenderSettings& settings) {
 }
 
 Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings) {
-  check_settings(scene, settings);
   const Estimators estimator = estimator_of_paths(estimator_for(settings), settings);
   Frame frame{.scene = scene,
               .world = world,

@@ -27,9 +27,9 @@ FilmLayout film_layout(const Scene& scene, const Estimators& estimator);
 bool goes_through_centre(const RenderSettings& settings);
 
 /// Throws Error if the settings don't fit each other, the scene or the machine.
-Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings);
-
-/// Throws what `prepare` throws; needs no world.
 void check_settings(const Scene& scene, const RenderSettings& settings);
+
+/// Of settings that `check_settings` lets pass.
+Prepared prepare(const Scene& scene, const World& world, const RenderSettings& settings);
 
 }  // namespace airlight

@@ -139,7 +139,6 @@ const std::vector<std::string> no_trait = {"spp", "seed", "first_sample", "isa",
 }  // namespace
 
 Traits traits_of(const Scene& scene, const RenderSettings& settings) {
-  check_settings(scene, settings);
   const auto& [camera, resolution, background, background_image, background_is_seen, ambient,
                textures, objects, media, lights, light_groups, unused_settings, assumptions] =
       scene;

@@ -16,7 +16,7 @@ using Traits = std::vector<std::pair<std::string, std::string>>;
 /// too, "left out".
 inline constexpr const char* what_is_behind = "what is behind";
 
-/// The traits of a render. Throws Error if the settings don't fit each other or the scene.
+/// The traits of a render, of settings that fit the scene.
 Traits traits_of(const Scene& scene, const RenderSettings& settings);
 
 /// How two renders differ, in words, "" if they don't: "not the same lights", "render.estimator is
