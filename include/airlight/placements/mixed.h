@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "distance.h"
 #include "equidistant.h"
 #include "whole_volume.h"
@@ -22,8 +24,7 @@ struct Mixed {
 
   template <class Section, class Strength>
   On<Section> on(const Section& section, const Strength& strength) const noexcept {
-    return {*this, WholeVolume{}.on(section, strength), Equidistant{}.on(section, strength),
-            Distance{}.on(section, strength)};
+    return {*this, section, strength};
   }
 };
 
@@ -33,19 +34,23 @@ struct Mixed::On<Section<F, channels, Space>> {
   const Mixed& mix;
   WholeVolume::On<In> whole_volume;
   Equidistant::On<In> equidistant;
-  Distance::On<In> distance;
+  std::optional<Distance::On<In>> distance;  ///< if it is the partner
+
+  On(const Mixed& m, const In& section, const Channels<F, channels>& strength) noexcept
+      : mix(m), whole_volume(section, strength), equidistant{section} {
+    if (mix.partner == Partner::distance) distance.emplace(section, strength);
+  }
 
   F sample(F u) const noexcept {
     const F part(Scalar<F>(mix.part));
     const Mask<F> first = u < part;
     const F v = clamp(select(first, u / part, (u - part) / (F(1) - part)), F(0), F(1));
-    const F partner = mix.partner == Partner::distance ? distance.sample(v) : equidistant.sample(v);
+    const F partner = distance ? distance->sample(v) : equidistant.sample(v);
     return select(first, partner, whole_volume.sample(v));
   }
 
   F pdf(F t, const typename In::Point& at) const noexcept {
-    const F partner =
-        mix.partner == Partner::distance ? distance.pdf(t, at) : equidistant.pdf(t, at);
+    const F partner = distance ? distance->pdf(t, at) : equidistant.pdf(t, at);
     return fma(F(Scalar<F>(mix.part)), partner,
                F(Scalar<F>(1 - mix.part)) * whole_volume.pdf(t, at));
   }
