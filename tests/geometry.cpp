@@ -7,10 +7,14 @@
 
 #include "geometry/flush_to_zero.h"
 #include "geometry/world.h"
+#include "support/gather.h"
 #include "support/random.h"
 
 namespace airlight {
 namespace {
+
+using test::gather;
+using test::gather3;
 
 struct Ray {
   Vec3<double> origin, direction;
@@ -229,23 +233,7 @@ Truth truth(const Scene& scene, const Ray& ray) {
   return result;
 }
 
-// --- asking
-// ---------------------------------------------------------------------------------------
-
-/// `value(ray)` of as many rays as F has lanes; the last ray fills up the packet.
-template <Real F, class Value>
-F gather(const std::vector<Ray>& rays, std::size_t first, Value&& value) {
-  Scalar<F> scalars[lanes<F>];
-  for (int i = 0; i < lanes<F>; ++i)
-    scalars[i] = Scalar<F>(value(rays[std::min(first + std::size_t(i), rays.size() - 1)]));
-  return load<F>(scalars);
-}
-template <Real F>
-Vec3<F> gather3(const std::vector<Ray>& rays, std::size_t first, Vec3<double> Ray::*member) {
-  return {gather<F>(rays, first, [&](const Ray& r) { return (r.*member).x; }),
-          gather<F>(rays, first, [&](const Ray& r) { return (r.*member).y; }),
-          gather<F>(rays, first, [&](const Ray& r) { return (r.*member).z; })};
-}
+// --- asking -------------------------------------------------------------------------------------
 
 template <Real F>
 Mask<F> all_active() {
@@ -265,10 +253,9 @@ std::vector<Rgb<double>> transmit(const World& world, const std::vector<Ray>& ra
   using F = typename Way::Arithmetic;
   std::vector<Rgb<double>> result;
   for (std::size_t first = 0; first < rays.size(); first += lanes<F>) {
-    const Rgb<F> t = world.transmit(gather3<F>(rays, first, &Ray::origin),
-                                    gather3<F>(rays, first, &Ray::direction),
-                                    gather<F>(rays, first, [](const Ray& r) { return r.t_max; }), 0,
-                                    all_active<F>(), Way::bundle);
+    const Rgb<F> t = world.transmit(
+        gather3<F>(rays, first, &Ray::origin), gather3<F>(rays, first, &Ray::direction),
+        gather<F>(rays, first, &Ray::t_max), 0, all_active<F>(), Way::bundle);
     for (int i = 0; i < lanes<F> && result.size() < rays.size(); ++i)
       result.emplace_back(double(lane(t.r, i)), double(lane(t.g, i)), double(lane(t.b, i)));
   }
@@ -289,7 +276,7 @@ std::vector<Found> closest(const World& world, const std::vector<Ray>& rays) {
   for (std::size_t first = 0; first < rays.size(); first += lanes<F>) {
     const Hit<F> hit = world.closest(
         gather3<F>(rays, first, &Ray::origin), gather3<F>(rays, first, &Ray::direction),
-        gather<F>(rays, first, [](const Ray& r) { return r.t_min; }), all_active<F>(), Way::bundle);
+        gather<F>(rays, first, &Ray::t_min), all_active<F>(), Way::bundle);
     const std::uint32_t found = bits<F>(hit.found);
     for (int i = 0; i < lanes<F> && result.size() < rays.size(); ++i) {
       const auto n = std::size_t(i);

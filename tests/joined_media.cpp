@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "report/statistics.h"
+#include "support/sections_in_pieces.h"
 #include "support/stats.h"
 #include "support/unions.h"
 #include "support/worst.h"
@@ -17,7 +18,9 @@ namespace airlight {
 namespace {
 
 using test::Exact;
+using test::nearly_parallel;
 using test::Random;
+using test::section_of;
 using test::Union;
 using test::Worst;
 
@@ -59,8 +62,7 @@ Medium any_medium(Random& random, const Cell& cell, bool grey) {
   return medium;
 }
 
-/// Kinds of rays in which the union is well-conditioned, and those in which the light all but
-/// follows the ray.
+/// Kinds of rays in which the union is well-conditioned.
 constexpr test::Kind kinds[] = {test::Kind::generic,
                                 test::Kind::into_the_light,
                                 test::Kind::light_behind,
@@ -73,10 +75,6 @@ constexpr test::Kind kinds[] = {test::Kind::generic,
                                 test::Kind::gliding_in_a_face,
                                 test::Kind::from_a_corner,
                                 test::Kind::tied};
-constexpr test::Kind nearly_parallel[] = {test::Kind::nearly_into_the_light,
-                                          test::Kind::barely_off_the_light,
-                                          test::Kind::light_nearly_behind};
-
 /// One to six boxes along the axes and a ray from inside them or from outside.
 template <class Kinds>
 Union any_union(Random& random, const Kinds& which, bool grey) {
@@ -84,12 +82,8 @@ Union any_union(Random& random, const Kinds& which, bool grey) {
   for (const Cell& cell : cells(random, 1 + random.below(6)))
     all.parts.push_back({test::box_body(test::point(cell.min), test::point(cell.max)),
                          any_medium(random, cell, grey)});
-  all.ray = test::ray_of(random.of(which), random);
-  if (random.below(2)) all.ray.o = all.ray.o - all.ray.d * random.uniform(0, 3);
-  all.ray.t_max = random.uniform(0.5, 5);
-  // Some light starts at a plane, ahead of all of the ray.
-  if (const double b = -dot(all.ray.d, all.ray.w); random.below(4) == 0)
-    all.start = {std::max(0., -b * all.ray.t_max) + random.uniform(0, 1.5), b};
+  all.ray = test::any_ray(random, random.of(which));
+  all.start = test::any_start(random, all.ray, 4);
   return all;
 }
 
@@ -97,16 +91,6 @@ std::vector<Medium> media_of(const Union& all) {
   std::vector<Medium> media;
   for (const Union::Part& part : all.parts) media.push_back(part.medium);
   return media;
-}
-
-/// The section of a ray, the same in every lane.
-template <Real F, int channels, class Space>
-Section<F, channels, Space> section_of(const Space& space, const test::BoxRay& ray,
-                                       const Medium& first) {
-  Section<F, channels, Space> section(space, {space.point(Vec3<F>(ray.o)), Vec3<F>(ray.d)},
-                                      Vec3<F>(ray.w), F(Scalar<F>(ray.t_max)), first);
-  section.trace_way_out();
-  return section;
 }
 
 /// A union with its section in double, which stays where it is made.
@@ -356,25 +340,10 @@ void expect_same(const char* what, double allowed) {
     }
     const Joined joined(media);
     std::vector<test::BoxRay> rays;
-    Scalar<F> numbers[10][lanes<F>];
-    for (int k = 0; k < lanes<F>; ++k) {
-      test::BoxRay ray = test::ray_of(k % 2 ? test::Kind::generic : random.of(kinds), random);
-      if (k % 3 == 0) ray.o = ray.o - ray.d * random.uniform(0, 3);
-      ray = {test::narrowed(ray.o), test::narrowed(ray.d), test::narrowed(ray.w),
-             test::narrowed(random.uniform(0.5, 5))};
-      for (int c = 0; c < 3; ++c) {
-        numbers[c][k] = Scalar<F>(ray.o[c]), numbers[3 + c][k] = Scalar<F>(ray.d[c]);
-        numbers[6 + c][k] = Scalar<F>(ray.w[c]);
-      }
-      numbers[9][k] = Scalar<F>(ray.t_max);
-      rays.push_back(ray);
-    }
-    const auto vector = [&](int row) {
-      return Vec3<F>(load<F>(numbers[row]), load<F>(numbers[row + 1]), load<F>(numbers[row + 2]));
-    };
-    Section<F, 3, Joined> section(joined, {joined.point(vector(0)), vector(3)}, vector(6),
-                                  load<F>(numbers[9]), media[0]);
-    section.trace_way_out();
+    for (int k = 0; k < lanes<F>; ++k)
+      rays.push_back(
+          test::in_floats(test::any_ray(random, k % 2 ? test::Kind::generic : random.of(kinds))));
+    const auto section = section_of<F, 3>(joined, rays, media[0]);
     for (int k = 0; k < lanes<F>; ++k) {
       // Light that all but follows a face crosses it anywhere, in single precision.
       const Vec3<double>& w = rays[std::size_t(k)].w;

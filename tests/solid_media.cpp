@@ -11,17 +11,22 @@
 #include "scene/closed_mesh.h"
 #include "support/meshes.h"
 #include "support/quadrature.h"
+#include "support/sections_in_pieces.h"
 #include "support/stats.h"
 #include "support/worst.h"
 
 namespace airlight {
 namespace {
 
+using test::any_ray;
+using test::any_start;
 using test::BoxRay;
 using test::Exact;
 using test::ExactCrossings;
+using test::nearly_parallel;
 using test::point;
 using test::Random;
+using test::section_of;
 using test::TestMesh;
 using test::Worst;
 
@@ -103,29 +108,6 @@ Medium medium_of(const Case& c, const std::shared_ptr<const ClosedMesh>& mesh) {
   return medium;
 }
 
-BoxRay any_ray(Random& random, test::Kind kind) {
-  BoxRay ray = test::ray_of(kind, random);
-  if (random.below(2)) ray.o = ray.o - ray.d * random.uniform(0, 3);
-  ray.t_max = random.uniform(0.5, 5);
-  return ray;
-}
-
-/// Some light starts at a plane, ahead of all of the ray.
-LightStart<double> any_start(Random& random, const BoxRay& ray) {
-  if (random.below(3) > 0) return {};
-  const double b = -dot(ray.d, ray.w);
-  return {std::max(0., -b * ray.t_max) + random.uniform(0, 1.5), b};
-}
-
-template <Real F, int channels, class Space>
-Section<F, channels, Space> section_of(const Space& space, const BoxRay& ray,
-                                       const Medium& medium) {
-  Section<F, channels, Space> section(space, {space.point(Vec3<F>(ray.o)), Vec3<F>(ray.d)},
-                                      Vec3<F>(ray.w), F(Scalar<F>(ray.t_max)), medium);
-  section.trace_way_out();
-  return section;
-}
-
 /// Kinds of rays that meet the meshes' edges by chance only, as the judge asks.
 constexpr test::Kind kinds[] = {test::Kind::generic,
                                 test::Kind::into_the_light,
@@ -136,10 +118,6 @@ constexpr test::Kind kinds[] = {test::Kind::generic,
                                 test::Kind::light_parallel_to_a_face,
                                 test::Kind::view_parallel_to_a_face,
                                 test::Kind::both_parallel_to_faces};
-/// Those where the ray and the light all but span no plane.
-constexpr test::Kind nearly_parallel[] = {test::Kind::nearly_into_the_light,
-                                          test::Kind::barely_off_the_light,
-                                          test::Kind::light_nearly_behind};
 
 void expect_exact(const char* what, const std::vector<TestMesh>& meshes, double allowed,
                   unsigned seed, int rays, bool special = false) {
@@ -150,7 +128,7 @@ void expect_exact(const char* what, const std::vector<TestMesh>& meshes, double 
     for (int i = 0; i < rays; ++i) {
       Case c{mesh, any_ray(random, special ? random.of(nearly_parallel) : random.of(kinds)),
              random.log_uniform(0.05, 10)};
-      c.start = any_start(random, c.ray);
+      c.start = any_start(random, c.ray, 3);
       const auto [truth, base] = c.integral();
       if (truth < 1e-9) continue;
       const Medium medium = medium_of(c, body);
@@ -291,24 +269,9 @@ void expect_same(const char* what, double allowed) {
   const Medium medium = coloured(body);
   for (int i = 0; i < 100; ++i) {
     std::vector<BoxRay> rays;
-    Scalar<F> numbers[10][lanes<F>];
-    for (int k = 0; k < lanes<F>; ++k) {
-      BoxRay ray = any_ray(random, random.of(kinds));
-      ray = {test::narrowed(ray.o), test::narrowed(ray.d), test::narrowed(ray.w),
-             test::narrowed(ray.t_max)};
-      for (int c = 0; c < 3; ++c) {
-        numbers[c][k] = Scalar<F>(ray.o[c]), numbers[3 + c][k] = Scalar<F>(ray.d[c]);
-        numbers[6 + c][k] = Scalar<F>(ray.w[c]);
-      }
-      numbers[9][k] = Scalar<F>(ray.t_max);
-      rays.push_back(ray);
-    }
-    const auto vector = [&](int row) {
-      return Vec3<F>(load<F>(numbers[row]), load<F>(numbers[row + 1]), load<F>(numbers[row + 2]));
-    };
-    Section<F, 3, Solid::Space> section(space, {space.point(vector(0)), vector(3)}, vector(6),
-                                        load<F>(numbers[9]), medium);
-    section.trace_way_out();
+    for (int k = 0; k < lanes<F>; ++k)
+      rays.push_back(test::in_floats(any_ray(random, random.of(kinds))));
+    const auto section = section_of<F, 3>(space, rays, medium);
     for (int k = 0; k < lanes<F>; ++k) {
       const auto truth = section_of<double, 3>(space, rays[std::size_t(k)], medium);
       for (int c = 0; c < 3; ++c)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "support/exact_way.h"
+#include "support/gather.h"
 #include "support/quadrature.h"
 #include "support/rays_in_a_box.h"
 #include "support/typed.h"
@@ -21,6 +22,8 @@ namespace {
 using test::BoxRay;
 using test::Exact;
 using test::ExactWay;
+using test::gather;
+using test::gather3;
 using test::Point;
 using test::point;
 using test::Random;
@@ -49,21 +52,6 @@ struct Answer {
   double total, depth, t_max;
 };
 
-/// `value(case)` of as many cases as F has lanes; the last case fills up the batch.
-template <Real F, class Value>
-F gather(const std::vector<Case>& all, std::size_t first, Value&& value) {
-  Scalar<F> scalars[lanes<F>];
-  for (int i = 0; i < lanes<F>; ++i)
-    scalars[i] = Scalar<F>(value(all[std::min(first + std::size_t(i), all.size() - 1)]));
-  return load<F>(scalars);
-}
-template <Real F, class Value>
-Vec3<F> gather3(const std::vector<Case>& all, std::size_t first, Value&& value) {
-  return {gather<F>(all, first, [&](const Case& c) { return value(c).x; }),
-          gather<F>(all, first, [&](const Case& c) { return value(c).y; }),
-          gather<F>(all, first, [&](const Case& c) { return value(c).z; })};
-}
-
 template <Real F, class Space>
 std::vector<Answer> answers(const Space& space, const std::vector<Case>& all) {
   std::vector<Answer> result;
@@ -74,8 +62,7 @@ std::vector<Answer> answers(const Space& space, const std::vector<Case>& all) {
         space.outward(space.vector(gather3<F>(all, i, [](const Case& c) { return c.ray.w; })));
     const F t_max = gather<F>(all, i, [](const Case& c) { return c.ray.t_max; });
     const auto way = space.way_out(ray, out, t_max);
-    const Trapezoids<F, Space::max_segments> light(
-        way, gather<F>(all, i, [](const Case& c) { return c.sigma; }));
+    const Trapezoids<F, Space::max_segments> light(way, gather<F>(all, i, &Case::sigma));
     for (int k = 0; k < lanes<F> && i + std::size_t(k) < all.size(); ++k)
       result.push_back({lane(light.total, k), lane(light.depth, k), lane(way.t_max(), k)});
   }
@@ -656,7 +643,7 @@ void torture(const Space& space, unsigned seed, int rounds) {
         hit,
         min(gather<F>(all, 0, [](const Case& c) { return c.ray.t_max; }), inside.t_exit - enter),
         F(0));
-    const F sigma = gather<F>(all, 0, [](const Case& c) { return c.sigma; });
+    const F sigma = gather<F>(all, 0, &Case::sigma);
     const auto way = space.way_out(ray, out, t_max);
     const Trapezoids<F, Space::max_segments> light(way, sigma);
     F samples[std::size(us)], densities[std::size(us)];
