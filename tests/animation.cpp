@@ -15,7 +15,8 @@
 #include "scene/load_scene.h"
 #include "scene/models/model.h"
 #include "support/gltf_builder.h"
-#include "support/program.h"
+#include "support/refused.h"
+#include "support/scene_desk.h"
 
 namespace airlight {
 namespace {
@@ -522,23 +523,13 @@ TEST(MovingModel, refuses_broken_keys) {
 
 namespace {
 
-struct Desk {
-  Folder folder;
-  std::string scene = folder / "film.toml";
-
-  Desk() { write_bytes(scene, film); }
-
-  Outcome render(const std::string& output, std::vector<std::string> flags) const {
-    flags.insert(flags.begin(), {"render", scene, "-o", folder / output});
-    return run(flags);
-  }
+struct Desk : test::SceneDesk {
+  Desk() : SceneDesk("film.toml", film) {}
 };
 
 /// A line on stderr, exit status 2, and no file.
 void expect_refused(const Desk& desk, const Outcome& outcome, const std::string& said) {
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr(said));
-  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  test::expect_refused(outcome, said);
   EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml"));
 }
 

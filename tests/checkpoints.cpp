@@ -16,7 +16,9 @@
 #include "render/checkpoint_keeper.h"
 #include "render/render.h"
 #include "scene/load_scene.h"
-#include "support/program.h"
+#include "support/error_of.h"
+#include "support/refused.h"
+#include "support/scene_desk.h"
 
 namespace airlight::test {
 namespace {
@@ -106,15 +108,6 @@ bool same_bits(const Film& a, const Film& b) {
 
 /// A film and its parts add up the same floats in another order.
 constexpr double rounding = 3e-6;
-
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
 
 /// Renders into a checkpoint, from what it holds.
 Rendered render(const Scene& scene, const std::string& file, RenderControl control = {}) {
@@ -515,20 +508,9 @@ TEST(Checkpoint, is_refused_when_cut_short_or_damaged_anywhere) {
 
 // --- the program ---------------------------------------------------------------------------------
 
-struct Desk {
-  Folder folder;
-  std::string scene = folder / "scene.toml";
-
-  Desk() { write_bytes(scene, scene_text); }
-  std::string operator/(const std::string& name) const { return folder / name; }
+struct Desk : SceneDesk {
+  Desk() : SceneDesk("scene.toml", scene_text) {}
 };
-
-void expect_refused(const Outcome& outcome, const std::string& part) {
-  EXPECT_EQ(outcome.status, 2) << outcome.out;
-  EXPECT_THAT(outcome.err, HasSubstr(part));
-  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-}
 
 TEST(Merge, writes_no_alpha_of_a_picture_with_a_background) {
   const Folder folder;

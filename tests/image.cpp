@@ -21,6 +21,7 @@
 #include "image/output.h"
 #include "image/read_file.h"
 #include "image/srgb.h"
+#include "support/error_of.h"
 #include "support/scratch.h"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -32,6 +33,7 @@
 #pragma GCC diagnostic pop
 
 using namespace airlight;
+using airlight::test::error_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::EndsWith;
@@ -56,16 +58,6 @@ Layer layer_of(const std::string& name, std::vector<std::string> channels, const
   return {name, std::move(channels),
           [&image](int y, std::span<float> row) { std::ranges::copy(image.row(y), row.begin()); },
           storage};
-}
-
-template <class Action>
-std::string error_of(Action&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 Image one_row(std::vector<float> values) {

@@ -13,7 +13,7 @@
 #include "image/output.h"
 #include "render/render.h"
 #include "scene/load_scene.h"
-#include "support/program.h"
+#include "support/refused.h"
 
 namespace airlight::test {
 namespace {
@@ -247,12 +247,6 @@ TEST(ReadPicture, unpacks_a_file_once_and_not_once_a_layer) {
   const double of_one = processor_time([&] { read_image(folder / "many.exr", "l7"); });
   const double of_all = processor_time([&] { read_picture(folder / "many.exr"); });
   EXPECT_LT(of_all, layers / 4. * of_one);  // to unpack dominates, and is the same for both
-}
-
-void expect_refused(const Outcome& outcome, const std::string& part) {
-  EXPECT_EQ(outcome.status, 2) << outcome.out;
-  EXPECT_THAT(outcome.err, HasSubstr(part));
-  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
 }
 
 TEST(Mix, is_a_verb_that_tells_what_there_is) {

@@ -4,16 +4,16 @@
 
 #include <gmock/gmock.h>
 
-#include <functional>
 #include <random>
 
-#include "error.h"
+#include "support/error_of.h"
 
 namespace airlight {
 namespace {
 
 using Vec = Vec3<double>;
 using Planes = std::vector<std::array<double, 4>>;
+using test::error_of;
 using ::testing::HasSubstr;
 
 const Planes cube_planes = {{1, 0, 0, 1},  {-2, 0, 0, 2}, {0, 5, 0, 5},
@@ -42,15 +42,6 @@ double above(const Convex& convex, Vec p) {
   for (int k = 0; k < convex.face_count; ++k)
     most = std::max(most, dot(convex.faces[k].n, p) - convex.faces[k].h);
   return most;
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
 }
 
 }  // namespace

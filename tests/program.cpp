@@ -12,7 +12,8 @@
 #include "image/input.h"
 #include "render/version.h"
 #include "scene/render_settings.h"
-#include "support/program.h"
+#include "support/refused.h"
+#include "support/scene_desk.h"
 
 namespace airlight::test {
 namespace {
@@ -46,30 +47,9 @@ type = "sphere"
 radius = 0.7
 )";
 
-/// A folder with a scene in it.
-struct Desk {
-  Folder folder;
-  std::string scene = folder / "scene.toml";
-
-  Desk() { write_bytes(scene, scene_text); }
-
-  std::string operator/(const std::string& name) const { return folder / name; }
-
-  Outcome render(const std::string& output, std::vector<std::string> flags = {},
-                 const Beside& beside = {}) const {
-    flags.insert(flags.begin(), {"render", scene, "-o", folder / output});
-    return run(flags, beside);
-  }
+struct Desk : SceneDesk {
+  Desk() : SceneDesk("scene.toml", scene_text) {}
 };
-
-/// Not a line more and not a word on stdout: for a script and for a reader.
-void expect_one_line(const Outcome& outcome, int status, const std::string& part) {
-  EXPECT_EQ(outcome.status, status) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr(part));
-  EXPECT_THAT(outcome.err, EndsWith("\n"));
-  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-}
 
 const std::vector<std::string> endless = {"--spp", "268435456", "--size", "64x64"};
 
@@ -119,23 +99,22 @@ TEST(Program, lists_one_chapter_when_asked) {
   EXPECT_THAT(run({"list"}).out, HasSubstr(lights.out));
   EXPECT_THAT(lights.out, Not(HasSubstr("\nShapes\n")));
   EXPECT_THAT(run({"list", "keys-of-lights"}).out, StartsWith("Keys of lights\n"));
-  expect_one_line(run({"list", "foo"}), 2,
-                  "list: foo is not known here; accepted: cross-sections, estimators, forms, ");
+  expect_refused(run({"list", "foo"}),
+                 "list: foo is not known here; accepted: cross-sections, estimators, forms, ");
 }
 
 // ---- what cannot be done
 
 TEST(Program, refuses_a_command_line_in_one_line) {
-  expect_one_line(run({}), 2, "a verb is missing; accepted: render, ");
-  expect_one_line(run({"rendr"}), 2, "rendr is not known here; accepted: render, ");
-  expect_one_line(run({"render"}), 2, "SCENE");
-  expect_one_line(run({"render", "a.toml"}), 2, "--output");
-  expect_one_line(run({"render", "a.toml", "-o", "a.png", "--sppp", "3"}), 2,
-                  "--sppp is not known here; accepted: ");
-  expect_one_line(run({"render", "a.toml", "b.toml", "-o", "a.png"}), 2, "b.toml");
-  expect_one_line(run({"render", "a.toml", "-o", "a.png", "--spp"}), 2, "--spp needs a value");
-  expect_one_line(run({"render", "none.toml", "-o", "/tmp/never.png"}), 2,
-                  "none.toml: cannot be read");
+  expect_refused(run({}), "a verb is missing; accepted: render, ");
+  expect_refused(run({"rendr"}), "rendr is not known here; accepted: render, ");
+  expect_refused(run({"render"}), "SCENE");
+  expect_refused(run({"render", "a.toml"}), "--output");
+  expect_refused(run({"render", "a.toml", "-o", "a.png", "--sppp", "3"}),
+                 "--sppp is not known here; accepted: ");
+  expect_refused(run({"render", "a.toml", "b.toml", "-o", "a.png"}), "b.toml");
+  expect_refused(run({"render", "a.toml", "-o", "a.png", "--spp"}), "--spp needs a value");
+  expect_refused(run({"render", "none.toml", "-o", "/tmp/never.png"}), "none.toml: cannot be read");
 }
 
 TEST(Program, refuses_wrong_values_of_flags_and_touches_no_file) {
@@ -186,7 +165,7 @@ TEST(Program, refuses_wrong_values_of_flags_and_touches_no_file) {
     const Desk desk;
     write_bytes(desk / "out.png", "old");
     SCOPED_TRACE(c.said);
-    expect_one_line(desk.render("out.png", c.flags), 2, c.said);
+    expect_refused(desk.render("out.png", c.flags), c.said);
     EXPECT_EQ(bytes_of(desk / "out.png"), "old");
     EXPECT_THAT(desk.folder.names(), ElementsAre("out.png", "scene.toml"));
   }
@@ -196,35 +175,34 @@ TEST(Program, refuses_outputs_before_it_renders) {
   const Desk desk;
   std::filesystem::create_directory(desk / "folder.png");
   // Endless renders: these tests end only because they never begin.
-  expect_one_line(desk.render("out.jpg", endless), 2, "accepted: .exr, .pfm, .png");
-  expect_one_line(desk.render("out", endless), 2, "accepted: .exr, .pfm, .png");
-  expect_one_line(desk.render("missing/out.png", endless), 2, "there is no folder ");
-  expect_one_line(desk.render("folder.png", endless), 2, "folder.png: cannot be written: it is a");
-  expect_one_line(desk.render(".", endless), 2, "is a folder; accepted: a file in it, such as ");
-  expect_one_line(desk.render("out.png", {"--size", "65535x65535"}), 2,
-                  "65535 x 65535 pixels need ");
-  expect_one_line(desk.render("good.png", with(endless, {"-o", desk / "bad.gif"})), 2, "bad.gif");
+  expect_refused(desk.render("out.jpg", endless), "accepted: .exr, .pfm, .png");
+  expect_refused(desk.render("out", endless), "accepted: .exr, .pfm, .png");
+  expect_refused(desk.render("missing/out.png", endless), "there is no folder ");
+  expect_refused(desk.render("folder.png", endless), "folder.png: cannot be written: it is a");
+  expect_refused(desk.render(".", endless), "is a folder; accepted: a file in it, such as ");
+  expect_refused(desk.render("out.png", {"--size", "65535x65535"}), "65535 x 65535 pixels need ");
+  expect_refused(desk.render("good.png", with(endless, {"-o", desk / "bad.gif"})), "bad.gif");
   const std::string twice = "q.png: would be written twice; accepted: another file for each output";
-  expect_one_line(desk.render("q.png", with(endless, {"-o", desk / "q.png"})), 2, twice);
-  expect_one_line(desk.render("./q.png", with(endless, {"-o", desk / "q.png"})), 2, twice);
-  expect_one_line(desk.render("q.png", with(endless, {"--checkpoint", desk / "q.png"})), 2, twice);
-  expect_one_line(
+  expect_refused(desk.render("q.png", with(endless, {"-o", desk / "q.png"})), twice);
+  expect_refused(desk.render("./q.png", with(endless, {"-o", desk / "q.png"})), twice);
+  expect_refused(desk.render("q.png", with(endless, {"--checkpoint", desk / "q.png"})), twice);
+  expect_refused(
       desk.render("w.#.png", with(endless, {"--frames", "0..1", "--checkpoint", desk / "w.#.png"})),
-      2, "w.0.png: would be written twice");
+      "w.0.png: would be written twice");
   EXPECT_THAT(desk.folder.names(), ElementsAre("folder.png", "scene.toml"));
 }
 
 TEST(Program, says_when_the_disk_is_full) {
   const Desk desk;
   std::filesystem::create_symlink("/dev/full", desk / "out.png");
-  expect_one_line(desk.render("out.png"), 2, "No space left");
+  expect_refused(desk.render("out.png"), "No space left");
 }
 
 TEST(Program, says_when_what_it_prints_is_lost) {
   const Desk desk;
   const Outcome outcome = run(
       {"info", desk.scene}, {.before = [] { dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); }});
-  expect_one_line(outcome, 2, "No space left");
+  expect_refused(outcome, "No space left");
 }
 
 TEST(Program, keeps_the_old_file_when_the_new_one_may_not_grow) {
@@ -235,7 +213,7 @@ TEST(Program, keeps_the_old_file_when_the_new_one_may_not_grow) {
                                           const rlimit limit{512, 512};
                                           setrlimit(RLIMIT_FSIZE, &limit);
                                         }});
-    expect_one_line(outcome, 2, name);
+    expect_refused(outcome, name);
     EXPECT_EQ(bytes_of(desk / name), "old");
     EXPECT_THAT(desk.folder.names(), ElementsAre(name, "scene.toml"));
   }
@@ -534,13 +512,13 @@ TEST(Compare, warns_of_a_reference_as_noisy_as_what_it_judges) {
 TEST(Compare, refuses_what_it_would_not_heed_or_cannot_trust) {
   const Desk desk;
   ASSERT_EQ(desk.render("a.png", {"-o", desk / "a.exr"}).status, 0);
-  expect_one_line(compare(desk, {"--reference", desk / "a.png"}), 2,
-                  "a.png: is a picture for a screen, its light clipped at white or tone-mapped; "
-                  "accepted: .exr, .pfm or .hdr");
-  expect_one_line(compare(desk, {"--spp", "4", "--equal-time", "1"}), 2,
-                  "--spp 4: is not accepted beside --equal-time");
-  expect_one_line(compare(desk, {"--estimators", "rm,magic"}), 2,
-                  "--estimators magic: render.estimator = \"magic\" is not known here; accepted: ");
+  expect_refused(compare(desk, {"--reference", desk / "a.png"}),
+                 "a.png: is a picture for a screen, its light clipped at white or tone-mapped; "
+                 "accepted: .exr, .pfm or .hdr");
+  expect_refused(compare(desk, {"--spp", "4", "--equal-time", "1"}),
+                 "--spp 4: is not accepted beside --equal-time");
+  expect_refused(compare(desk, {"--estimators", "rm,magic"}),
+                 "--estimators magic: render.estimator = \"magic\" is not known here; accepted: ");
   EXPECT_FALSE(std::filesystem::exists(desk / "report"));
   EXPECT_EQ(compare(desk, {"--reference", desk / "a.exr", "--spp", "1", "--seeds", "1"}).status, 0);
 }
@@ -626,13 +604,13 @@ TEST(Probe, refuses_what_is_not_there) {
     flags.insert(flags.begin(), {"probe", desk.scene});
     return run(flags);
   };
-  expect_one_line(probe({"--pixel", "24,0"}), 2,
-                  "pixel 24,0 is not in the picture; accepted: 0,0 to 23,15");
-  expect_one_line(probe({"--pixel", "1;2"}), 2, "--pixel 1;2: is no pixel");
-  expect_one_line(probe({"--pixel", "1,2", "-o", desk / "ray.png"}), 2, "accepted: .svg");
-  expect_one_line(probe({"--pixel", "12,8", "-o", desk / "ray.svg", "--ray", "4"}), 2,
-                  "accepted: 0 to 3");
-  expect_one_line(probe({"--pixel", "0,0", "-o", desk / "ray.svg"}), 2, "nothing to plot");
+  expect_refused(probe({"--pixel", "24,0"}),
+                 "pixel 24,0 is not in the picture; accepted: 0,0 to 23,15");
+  expect_refused(probe({"--pixel", "1;2"}), "--pixel 1;2: is no pixel");
+  expect_refused(probe({"--pixel", "1,2", "-o", desk / "ray.png"}), "accepted: .svg");
+  expect_refused(probe({"--pixel", "12,8", "-o", desk / "ray.svg", "--ray", "4"}),
+                 "accepted: 0 to 3");
+  expect_refused(probe({"--pixel", "0,0", "-o", desk / "ray.svg"}), "nothing to plot");
   EXPECT_THAT(desk.folder.names(), ElementsAre("scene.toml"));
 }
 
