@@ -9,8 +9,8 @@
 #include "render/render.h"
 #include "report/statistics.h"
 #include "scene/closed_mesh.h"
-#include "support/analog_walk.h"
 #include "support/meshes.h"
+#include "support/plain_walks.h"
 #include "support/stats.h"
 
 namespace airlight {
@@ -66,9 +66,6 @@ test::TestMesh l_mesh() {
   return test::prism({{-1, -1}, {-1, 1}, {0, 1}, {0, 0}, {1, 0}, {1, -1}}, {-0.5, -0.5}, -1, 1);
 }
 
-const Colour floor_colour{0.7, 0.5, 0.3};
-constexpr double ball_grey = 0.6;
-
 /// A floor below the media, a ball between them, a sun that shines through all of them.
 Scene scene_of(std::vector<Medium> media) {
   Scene scene;
@@ -80,15 +77,7 @@ Scene scene_of(std::vector<Medium> media) {
   sun.direction = -normalize(Vector(0.8, 0.7, -0.6));
   sun.irradiance = Colour(3., 2., 1.);
   scene.lights = {sun};
-  const double half = AnalogWalk::floor_half;
-  const Sheet floor{.corner = {-half, AnalogWalk::floor_height, -half},
-                    .right = {0, 0, 2 * half},
-                    .up = {2 * half, 0, 0},
-                    .albedo = floor_colour};
-  Material grey;
-  grey.albedo = Colour(ball_grey);
-  scene.objects = {floor.object("floor"),
-                   {"ball", Sphere{{0, 0, 0}, AnalogWalk::ball_radius}, grey}};
+  scene.objects = {test::floor_of_the_walks(), test::ball_of_the_walks()};
   scene.render.samples_per_ray = 0;
   scene.render.visibility = Visibility::analytic;
   return scene;
@@ -96,37 +85,16 @@ Scene scene_of(std::vector<Medium> media) {
 
 // --- orders -------------------------------------------------------------------------------------
 
-/// A mean and its standard error, by order and colour; [0] has scattered once.
-struct Measured {
-  double mean[orders][3] = {}, error[orders][3] = {};
-};
+using Measured = test::ByOrder<orders>;
 
 Measured walked(const std::vector<Part>& parts, const Scene& scene) {
-  const auto& sun = std::get<Directional>(scene.lights[0]);
-  constexpr int walks = 150000;
   Measured truth;
   for (int c = 0; c < 3; ++c) {
     AnalogWalk walk;
     walk.fogs.clear();
     for (const Part& p : parts) walk.fogs.push_back({p.sigma_t[c], p.albedo[c], p.g, p.min, p.max});
-    walk.sun = -sun.direction, walk.irradiance = sun.irradiance[c];
-    walk.floor_albedo = floor_colour[c], walk.ball_albedo = ball_grey;
-    std::mt19937_64 random(unsigned(11 + c));
-    double sum[orders] = {}, squares[orders] = {};
-    for (int pixel = 0; pixel < 3; ++pixel)
-      for (int i = 0; i < walks; ++i) {
-        const auto light = walk(test::camera_ray(scene, pixel + 0.5, 0.5), random);
-        for (int k = 0; k < orders; ++k) {
-          const double x = light[std::size_t(k)];
-          sum[k] += x, squares[k] += x * x;
-        }
-      }
-    constexpr double n = 3. * walks;
-    for (int k = 0; k < orders; ++k) {
-      const double mean = sum[k] / n;
-      truth.mean[k][c] = mean;
-      truth.error[k][c] = std::sqrt((squares[k] / n - mean * mean) / n);
-    }
+    walk.floor_albedo = test::floor_colour[c], walk.ball_albedo = test::ball_grey;
+    test::walk_through(scene, walk, c, unsigned(11 + c), truth);
   }
   return truth;
 }
@@ -184,21 +152,6 @@ std::array<Measured, 3> orders_of(const Scene& scene, RenderSettings settings, i
   return result;
 }
 
-/// How far two means lie apart in standard errors, at most; expects below 4. Floats may be off by
-/// 4e-6, the error of the closed form.
-double worst_z(const Measured& a, const Measured& b) {
-  double worst = 0;
-  for (int k = 0; k < orders; ++k)
-    for (int c = 0; c < 3; ++c) {
-      const double error = std::hypot(a.error[k][c], b.error[k][c], 4e-6 * b.mean[0][c]);
-      const double z = std::abs(a.mean[k][c] - b.mean[k][c]) / error;
-      EXPECT_LT(z, 4) << "order " << k + 1 << ", channel " << c << ": " << a.mean[k][c] << " +- "
-                      << a.error[k][c] << " and " << b.mean[k][c] << " +- " << b.error[k][c];
-      worst = std::max(worst, z);
-    }
-  return worst;
-}
-
 struct Place {
   const char* name;
   std::vector<Part> parts;
@@ -238,7 +191,7 @@ TEST_P(EveryPlace, gives_every_order_alike_however_it_is_sampled) {
     const auto [lit, analytic, unoccluded] =
         orders_of(scene, settings, way.isa == InstructionSet::reference ? 96 : 384);
     SCOPED_TRACE(testing::Message() << way.estimator << " " << int(way.continuation));
-    worst = std::max({worst, worst_z(lit, truth), worst_z(unoccluded, analytic)});
+    worst = std::max({worst, expect_alike(lit, truth), expect_alike(unoccluded, analytic)});
     for (int c = 0; c < 3; ++c)
       EXPECT_LT(lit.error[1][c] / lit.mean[1][c], 0.06) << "proves little";
     noise = std::max(noise, lit.error[3][1] / lit.mean[3][1]);
