@@ -63,6 +63,20 @@ Model room_with_skylight() {
   return model;
 }
 
+/// A closed room of 6 m x 3 m x 4 m, whose walls at the ends show their backs.
+Model room_with_turned_walls() {
+  Mesh mesh;
+  add_box(mesh, {0, 0, 0}, {6, 3, 4});
+  for (auto& [a, b, c] : mesh.triangles) {
+    const auto x = [&](std::uint32_t i) { return mesh.positions[i].x; };
+    const bool at_an_end = x(a) == x(b) && x(b) == x(c);
+    if (!at_an_end) std::swap(b, c);
+  }
+  Model model;
+  model.objects.push_back(object(std::move(mesh)));
+  return model;
+}
+
 /// Ground of 80 m by 80 m in waves around its middle, which lies 8 m above a hollow and 8 m below
 /// the ridge about it.
 Model terrain() {
@@ -119,6 +133,18 @@ TEST(LookAround, finds_the_sky_where_nothing_opaque_is_in_the_way) {
   EXPECT_EQ(see_the_sky(model.objects, {{{6, 4, 3}, up}})[0], 1);
   model.objects.back().material.opacity = 0.5;
   EXPECT_EQ(see_the_sky(model.objects, {sights[0]})[0], 1);
+}
+
+TEST(StandIn, takes_a_room_s_own_camera_where_no_place_looks_like_inside) {
+  Model model = room_with_turned_walls();
+  const auto middle = look_around(model.objects, {{3, 1.5, 2}})[0];
+  EXPECT_GT(middle.enclosed(), 0.7);    // a room, yet
+  EXPECT_GT(middle.inside_out(), 0.1);  // not inside of it, as is true of all places there
+  model.camera = Camera{.position = {5, 1.5, 2}, .target = {0, 1.5, 2}, .up = {0, 1, 0}};
+  const Scene scene = scene_of(StandIn(model, "room.glb"), model);
+  EXPECT_EQ(scene.camera.position.x, 5);
+  const Box& fog = std::get<Box>(scene.media[0].shape);
+  EXPECT_NEAR(fog.max.x - fog.min.x, 6, 1);
 }
 
 TEST(StandIn, sees_a_thing_from_outside) {

@@ -267,6 +267,8 @@ RoomView room_view(const std::vector<Object>& objects, const Panorama& middle, c
   if (!places.empty()) {
     room = room_around(places, all);
     for (Panorama& place : places_in(room, 96, objects)) places.push_back(place);
+  } else {
+    places = {middle};  // such as between walls that show their backs
   }
   const double far = length(room.size());
   Choice choice{{}, aims(), suns()};
