@@ -1,6 +1,4 @@
 #pragma once
-#include <optional>
-
 #include "estimate.h"
 #include "lights.h"
 #include "math/random.h"

@@ -1,4 +1,4 @@
-#include "embree_surfaces.h"
+#include "geometry/embree_surfaces.h"
 
 #include <fmt/format.h>
 

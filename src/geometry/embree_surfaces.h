@@ -4,10 +4,10 @@
 #include <span>
 #include <type_traits>
 
-#include "among.h"
-#include "hit.h"
-#include "packet.h"
-#include "surface_filter.h"
+#include "geometry/among.h"
+#include "geometry/hit.h"
+#include "geometry/packet.h"
+#include "geometry/surface_filter.h"
 
 namespace airlight {
 

@@ -1,4 +1,4 @@
-#include "exact_surfaces.h"
+#include "geometry/exact_surfaces.h"
 
 #include <tuple>
 

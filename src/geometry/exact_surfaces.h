@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "among.h"
-#include "hit.h"
-#include "surface_filter.h"
+#include "geometry/among.h"
+#include "geometry/hit.h"
+#include "geometry/surface_filter.h"
 
 namespace airlight {
 

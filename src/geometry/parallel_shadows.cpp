@@ -1,4 +1,4 @@
-#include "parallel_shadows.h"
+#include "geometry/parallel_shadows.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "error.h"
+#include "geometry/surface_filter.h"
 #include "scene/scene.h"
-#include "surface_filter.h"
 
 namespace airlight {
 

@@ -1,4 +1,4 @@
-#include "surface_filter.h"
+#include "geometry/surface_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "world.h"
+#include "geometry/world.h"
 
 #include <algorithm>
 #include <cmath>

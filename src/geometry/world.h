@@ -2,13 +2,13 @@
 #include <optional>
 #include <vector>
 
-#include "among.h"
-#include "beam_image.h"
-#include "embree_surfaces.h"
-#include "exact_surfaces.h"
-#include "hit.h"
+#include "geometry/among.h"
+#include "geometry/beam_image.h"
+#include "geometry/embree_surfaces.h"
+#include "geometry/exact_surfaces.h"
+#include "geometry/hit.h"
+#include "geometry/surface_filter.h"
 #include "scene/scene.h"
-#include "surface_filter.h"
 
 namespace airlight {
 

@@ -94,8 +94,8 @@ void check_paths(const Estimators& estimator, const RenderSettings& settings) {
   if (!fits)
     throw Error(fmt::format(
         "render.continuation = \"{}\" goes on from samples of whole_volume, which estimator {} "
-        "does "
-        "not draw; accepted: \"distance\", \"sample\", or an estimator such as rewv or mcwvds",
+        "does not draw; accepted: \"distance\", \"sample\", or an estimator such as rewv or "
+        "mcwvds",
         settings.continuation == Continuation::mix ? "mix" : "whole_volume", settings.estimator));
 }
 

@@ -9,8 +9,8 @@
 
 #include "image/image.h"
 #include "image/texture.h"
-#include "render_settings.h"
-#include "room_behind.h"
+#include "scene/render_settings.h"
+#include "scene/room_behind.h"
 
 namespace airlight {
 
