@@ -176,7 +176,9 @@ TEST(Mix, changes_the_shadows_on_holdouts) {
         EXPECT_LT(largest_difference(read_image(rendered, name), read_image(mixed, name)), 4e-6)
             << layer << ", max_depth " << max_depth;
       }
-      if (over_nothing) EXPECT_LT(largest_difference(alpha_of(rendered), alpha_of(mixed)), 2e-6);
+      if (over_nothing) {
+        EXPECT_LT(largest_difference(alpha_of(rendered), alpha_of(mixed)), 2e-6);
+      }
     }
   }
 }
