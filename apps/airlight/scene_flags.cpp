@@ -32,8 +32,7 @@ void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without
             for (const std::string& assignment : assignments) changes_.emplace_back(assignment);
           },
           "changes a value of the scene: PATH=VALUE, as in lights.0.irradiance=3; may be repeated; "
-          "files "
-          "start at the current folder")
+          "files start at the current folder")
       ->type_name("")
       ->allow_extra_args(false)
       ->group("Scene");

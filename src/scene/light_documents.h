@@ -89,9 +89,8 @@ struct CollimatedDocument : GroupedLight {
     field("cross_section", &D::cross_section, unit::none, any_number(), "the outline of the beam");
     field("image", &D::image, unit::none, any_number(),
           "picture that filters the beam, stretched over the rectangle around the cross-section: "
-          "black and transparent parts block, white passes, colours tint; its path starts at the "
-          "scene "
-          "file");
+          "black and transparent parts block, white passes, colours tint; its path starts at "
+          "the scene file");
     GroupedLight::describe(field);
   }
 

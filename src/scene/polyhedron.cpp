@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "error.h"
+#include "scene/bounds.h"
 #include "scene/direction.h"
 
 namespace airlight {
@@ -60,12 +61,9 @@ std::vector<Vec> corners_of(const Planes& planes, double least_volume = 1e-12) {
 }
 
 Vec mean_of(const std::vector<Vec>& points) {
-  Vec low = points[0], high = points[0];
-  for (const Vec& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec middle = (low + high) * 0.5;
+  Bounds bounds;
+  for (const Vec& p : points) bounds.extend(p);
+  const Vec middle = bounds.centre();
   Vec sum;  // about the middle: no digits are lost far from the origin
   for (const Vec& p : points) sum = sum + (p - middle);
   return middle + sum * (1.0 / double(points.size()));

@@ -86,8 +86,7 @@ void connect(Soup& soup) {
     if (sides.size() != 2)
       throw Error(
           fmt::format("is no closed body: its edge from {} to {} belongs to {} triangle{}; "
-                      "accepted: 2 at every "
-                      "edge",
+                      "accepted: 2 at every edge",
                       soup.place(soup.corners[edge.first]), soup.place(soup.corners[edge.second]),
                       sides.size(), sides.size() == 1 ? "" : "s"));
 

@@ -129,8 +129,7 @@ void fig1a(Reproduced& out) {
       "whole-volume sampling (0.0486), and its text does not tell for which half of the figure: a "
       "room, which we don't have, or the many lights of 000/fig1b. This is another room, so only "
       "the direction can be compared: that whole-volume samples are better than distance samples, "
-      "and "
-      "that the ratio form helps the latter. By how much depends on the room, the fog and the "
+      "and that the ratio form helps the latter. By how much depends on the room, the fog and the "
       "shadows; the published quotient of 0.81 is here for orientation. In grey fog the ratio form "
       "of whole-volume samples is Monte Carlo itself (paper, section 6), which the third row "
       "holds to.");

@@ -22,8 +22,7 @@ void fig9(Reproduced& out) {
       "its fog is known to us, so what is held to a range is the rule.");
   out.page.paragraph(
       "The absolute values lie far above the paper's: samples are stratified here, and the error "
-      "of "
-      "N of them falls nearly as 1/N (see 000/fig7-single).");
+      "of N of them falls nearly as 1/N (see 000/fig7-single).");
   if (out.scene_file.empty())
     out.page.paragraph(
         "The first view below was chosen after seeing numbers, as one where whole-volume samples "
