@@ -147,12 +147,17 @@ inline MeshCrossings::MeshCrossings(const ClosedMesh& mesh, Vec3<double> o,
     Vec3<double> p[3];
     for (int i = 0; i < 3; ++i) p[i] = point_of(mesh.corners[corner[i]]) - o;
     // On which side of each edge the line passes. An edge is always taken from its lower to its
-    // upper corner, so that triangles that share it agree.
+    // upper corner, so that triangles that share it agree. Where the line meets it, as all edges of
+    // a corner that it starts at, the line counts as moved by next to nothing along e1, and by next
+    // to nothing of that along e2.
     bool left[3];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const bool up = corner[i] < corner[j];
-      const double side = dot(d, cross(up ? p[i] : p[j], up ? p[j] : p[i]));
+      const Vec3<double>&from = up ? p[i] : p[j], &to = up ? p[j] : p[i];
+      double side = dot(d, cross(from, to));
+      if (side == 0) side = dot(e2, from - to);
+      if (side == 0) side = dot(e1, to - from);
       left[i] = up ? side >= 0 : side < 0;
     }
     const bool out = left[0] && left[1] && left[2], in = !left[0] && !left[1] && !left[2];
