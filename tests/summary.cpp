@@ -100,12 +100,25 @@ TEST(Summary, of_a_picture_warns_of_fog_without_light) {
   EXPECT_THAT(warnings({lid, to, "media.0.emission=1"}), ::testing::IsEmpty());
   EXPECT_THAT(warnings({lid, to, "lights.0.irradiance=0"}), ::testing::IsEmpty())
       << "which is told before";
+  const std::vector<Override> beam = {
+      "lights=[{type='collimated', irradiance=1, position=[9,2,0], direction=[0,-1,0], "
+      "cross_section={type='circle', radius=0.1}}]",
+      "objects=[]"};
+  EXPECT_THAT(warnings(beam), Contains(HasSubstr("beams miss it")));
   const Scene dark = parse_scene(room, "room", {lid, to});
   RenderControl at_once;
   at_once.time_limit = 1e-9;
   const Film nothing = Renderer(dark).render(dark.render, at_once).film;
   EXPECT_THAT(warnings_after(dark, nothing), ::testing::IsEmpty())
       << "cut short, it shows nothing at all";
+}
+
+TEST(Summary, of_fog_without_an_end_warns_of_what_is_in_view) {
+  const std::string endless = "media.0.shape={type='unbounded'}";
+  EXPECT_THAT(summary_with({endless, "lights=[]"}).warnings,
+              Not(Contains(StartsWith("fog is opaque"))));
+  EXPECT_THAT(summary_with({endless, "lights=[]", "camera.position=[0,0,99]"}).warnings,
+              Contains(HasSubstr("100 m of it between the camera and its target")));
 }
 
 TEST(Summary, warns) {

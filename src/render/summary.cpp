@@ -180,15 +180,15 @@ void count(const Scene& scene, Summary& result) {
 void warn_of_medium(const Medium& medium, const MediumSummary& fog,
                     std::vector<std::string>& warnings) {
   const double opaque_after = hundredth / least(medium.sigma_t);
-  const double across = fog.across.value_or(far_away);
   if (fog.to_target > opaque_after)
     warnings.push_back(
         fmt::format("fog is opaque after {:.2g} m (1 % passes), and there are {:.3g} m of it "
                     "between the camera and its target",
                     opaque_after, fog.to_target));
-  else if (opaque_after < across / 2)
-    warnings.push_back(fmt::format(
-        "fog is opaque after {:.2g} m (1 % passes); it is {:.3g} m across", opaque_after, across));
+  else if (fog.across && opaque_after < *fog.across / 2)
+    warnings.push_back(
+        fmt::format("fog is opaque after {:.2g} m (1 % passes); it is {:.3g} m across",
+                    opaque_after, *fog.across));
   if (medium.sigma_s == Rgb<double>() && medium.emission == Rgb<double>())
     warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
 }
@@ -272,7 +272,10 @@ std::vector<std::string> warnings_after(const Scene& scene, const Film& film) {
   for (int group = 0; group < int(film.groups.size()); ++group)
     for (const PixelSums& pixel : film.pixels(group))
       if (mean_estimate(pixel).radiance() != Rgb<double>()) return {};
-  return {"no light reaches the fog in the picture: objects shadow all of it"};
+  const bool beams = std::ranges::any_of(
+      scene.lights, [](const Lights& light) { return std::holds_alternative<Collimated>(light); });
+  return {fmt::format("no light reaches the fog in the picture: {}objects shadow all of it",
+                      beams ? "beams miss it, or their images or " : "")};
 }
 
 Summary summarise(const Scene& scene) {
@@ -292,7 +295,8 @@ Summary summarise(const Scene& scene) {
   for (std::size_t i = 0; i < result.lights.size(); ++i)
     if (result.lights[i].lit_part == 0.)
       result.warnings.push_back(fmt::format(
-          "lights.{} cannot enter: objects shadow all of the fog that the camera sees", i));
+          "lights.{} cannot enter: objects{} shadow all of the fog that the camera sees", i,
+          std::holds_alternative<Collimated>(scene.lights[i]) ? " or its image" : ""));
   result.remarks = remarks_on(scene, result);
   try {
     check_settings(scene, scene.render);
