@@ -288,7 +288,7 @@ TEST(SolidMedium, is_the_same_in_every_arithmetic) {
   expect_same<FloatBatch>("T in a torus in lanes, off by [m/sr]", 1e-5);
 }
 
-TEST(SolidMedium, is_crossed_once_by_rays_from_its_corners) {
+TEST(SolidMedium, is_crossed_by_rays_from_and_through_its_corners_as_by_those_beside_them) {
   Worst worst("way of a ray from a corner against one a nanometre beside it, off by [m]");
   Random random(21);
   for (const TestMesh& mesh : {test::l_mesh(), test::torus(12, 8), test::random_prism(random, 9)}) {
@@ -297,12 +297,15 @@ TEST(SolidMedium, is_crossed_once_by_rays_from_its_corners) {
     const Medium medium = medium_of({mesh, {}}, body);
     for (const auto& [x, y, z] : mesh.points)
       for (int i = 0; i < 8; ++i) {
-        const Vec3<double> o{x, y, z}, d = test::ray_of(test::Kind::generic, random).d;
-        const Vec3<double> beside = o + 1e-9 * test::ray_of(test::Kind::generic, random).d;
-        const LocalRay<double> ray{space.point(o), d};
-        const double way = space.stretches(ray, medium).depth(far_away).r;
-        const Exact truth = ExactCrossings(mesh, point(beside), point(d)).inside(0, far_away);
-        worst.see(std::abs(way - double(truth)), Case{mesh, {o, d, d, 0}});
+        const Vec3<double> d = test::ray_of(test::Kind::generic, random).d;
+        const Vec3<double> aside = test::ray_of(test::Kind::generic, random).d;
+        for (const double ahead : {0., 1e-17, -1e-17, -2.}) {
+          const Vec3<double> o = Vec3<double>{x, y, z} + d * ahead;
+          const LocalRay<double> ray{space.point(o), d};
+          const double way = space.stretches(ray, medium).depth(far_away).r;
+          const ExactCrossings beside(mesh, point(o + 1e-9 * aside), point(d));
+          worst.see(std::abs(way - double(beside.inside(0, far_away))), Case{mesh, {o, d, d, 0}});
+        }
       }
   }
   // Rays that glide along a face within a thousandth end elsewhere by a millionth.

@@ -137,6 +137,7 @@ inline MeshCrossings::MeshCrossings(const ClosedMesh& mesh, Vec3<double> o,
   // The line is where two planes through it meet.
   Vec3<double> e1, e2;
   orthonormal_basis(normalize(d), e1, e2);
+  const double rounding = 1e-15 * length(d);  // of a line's side, over the sizes of the corners
   const auto misses = [&](Vec3<double> middle, Vec3<double> half) {
     const Vec3<double> q = middle - o;
     return std::abs(dot(e1, q)) > detail::reach(e1, half) ||
@@ -145,18 +146,22 @@ inline MeshCrossings::MeshCrossings(const ClosedMesh& mesh, Vec3<double> o,
   detail::for_each_triangle(mesh, misses, [&](auto... index) {
     const std::uint32_t corner[3] = {index...};
     Vec3<double> p[3];
-    for (int i = 0; i < 3; ++i) p[i] = point_of(mesh.corners[corner[i]]) - o;
+    double size[3];
+    for (int i = 0; i < 3; ++i) {
+      p[i] = point_of(mesh.corners[corner[i]]) - o;
+      size[i] = std::abs(p[i].x) + std::abs(p[i].y) + std::abs(p[i].z);
+    }
     // On which side of each edge the line passes. An edge is always taken from its lower to its
-    // upper corner, so that triangles that share it agree. Where the line meets it, as all edges of
-    // a corner that it starts at, the line counts as moved by next to nothing along e1, and by next
-    // to nothing of that along e2.
+    // upper corner, so that triangles that share it agree. Where the line meets it but for
+    // rounding, as all edges of a corner that it starts at, the line counts as moved by next to
+    // nothing along e1, and by next to nothing of that along e2.
     bool left[3];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const bool up = corner[i] < corner[j];
       const Vec3<double>&from = up ? p[i] : p[j], &to = up ? p[j] : p[i];
       double side = dot(d, cross(from, to));
-      if (side == 0) side = dot(e2, from - to);
+      if (std::abs(side) <= rounding * size[i] * size[j]) side = dot(e2, from - to);
       if (side == 0) side = dot(e1, to - from);
       left[i] = up ? side >= 0 : side < 0;
     }
