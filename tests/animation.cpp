@@ -563,6 +563,14 @@ TEST(Frames, are_taken_up_where_a_run_ended) {
   EXPECT_NE(bytes_of(desk.folder / "out.1.png"), "kept");
 }
 
+TEST(Frames, are_given_as_a_run_or_as_one) {
+  const Desk desk;
+  test::expect_refused(
+      desk.render("out.#.png", {"--frames", "0..1", "--frame", "7"}),
+      "--frame 7: the frames are those of --frames 0..1; accepted: one of the two");
+  EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml"));
+}
+
 TEST(Frames, that_an_interrupt_cut_short_are_not_written) {
   const Desk desk;
   const Outcome outcome = run({"render", desk.scene, "-o", desk.folder / "out.#.png", "--frames",

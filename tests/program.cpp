@@ -626,5 +626,14 @@ TEST(Info, tells_what_is_in_a_scene_and_warns) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
 }
 
+TEST(Info, tells_the_outlines_and_groups_of_lights) {
+  const Outcome outcome = run({"info", AIRLIGHT_SOURCE_DIR "/scenes/stage.toml"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* words :
+       {"begins at (-4.2, 4.75, -2.35) m as a circle of radius 0.2 m", "in the group rosettes",
+        "as a polygon of 3 sides, 1.08 m x 0.93 m", "passes through an image of 256 x 256 pixels"})
+    EXPECT_THAT(outcome.out, HasSubstr(words));
+}
+
 }  // namespace
 }  // namespace airlight::test

@@ -41,6 +41,33 @@ void print_medium(const std::string& name, const airlight::Medium& medium,
                fog.exit ? fmt::format("{:.4g} m", *fog.exit) : "infinity");
 }
 
+/// What only some kinds of light have.
+void print_outline(const airlight::Scene&, const airlight::Directional&) {}
+void print_outline(const airlight::Scene& scene, const airlight::Collimated& beam) {
+  const airlight::CrossSection& outline = beam.cross_section;
+  const std::string form =
+      outline.side_count == 0
+          ? fmt::format("circle of radius {:.4g} m", outline.radius)
+          : fmt::format("polygon of {} sides, {:.4g} m x {:.4g} m", outline.side_count,
+                        outline.high.x - outline.low.x, outline.high.y - outline.low.y);
+  fmt::print("           begins at {} m as a {}\n", shown(beam.position), form);
+  if (beam.image < 0) return;
+  const airlight::Texture& image = scene.textures[std::size_t(beam.image)];
+  fmt::print("           passes through an image of {} x {} pixels\n", image.width, image.height);
+}
+
+void print_light(const std::string& name, const airlight::Scene& scene, std::size_t i,
+                 const airlight::LightSummary& light) {
+  fmt::print("{:<10} {} from {}, irradiance {} W/m2, angular diameter {:.4g} degrees\n", name,
+             light.kind, shown(light.toward), shown(light.irradiance), light.angular_diameter);
+  std::visit([&](const auto& kind) { print_outline(scene, kind); }, scene.lights[i]);
+  if (i < scene.light_groups.size() && !scene.light_groups[i].empty())
+    fmt::print("           in the group {}\n", scene.light_groups[i]);
+  if (light.lit_part)
+    fmt::print("           reaches about {:.3g} % of the fog in the picture\n",
+               100 * *light.lit_part);
+}
+
 void print(const airlight::Scene& scene, const Summary& summary) {
   fmt::print("objects    {} ({} triangles, {} spheres), {} textures\n", summary.objects,
              summary.triangles, summary.spheres, summary.textures);
@@ -56,14 +83,8 @@ void print(const airlight::Scene& scene, const Summary& summary) {
       scene.resolution.width, scene.resolution.height);
   for (std::size_t i = 0; i < scene.media.size(); ++i)
     print_medium(fmt::format("media.{}", i), scene.media[i], summary.media[i]);
-  for (std::size_t i = 0; i < summary.lights.size(); ++i) {
-    const airlight::LightSummary& light = summary.lights[i];
-    fmt::print("lights.{}   {} from {}, irradiance {} W/m2, angular diameter {:.4g} degrees\n", i,
-               light.kind, shown(light.toward), shown(light.irradiance), light.angular_diameter);
-    if (light.lit_part)
-      fmt::print("           reaches about {:.3g} % of the fog in the picture\n",
-                 100 * *light.lit_part);
-  }
+  for (std::size_t i = 0; i < summary.lights.size(); ++i)
+    print_light(fmt::format("lights.{}", i), scene, i, summary.lights[i]);
   const airlight::MemorySummary& memory = summary.memory;
   fmt::print("memory     about {}: geometry {}, textures {}, hierarchy {}, film {}\n",
              bytes(memory.total()), bytes(memory.geometry), bytes(memory.textures),

@@ -246,6 +246,9 @@ int render_frames(const Flags& flags) {
         "such as out.####.ckpt");
   if (manner.schedule.preview > 0)
     throw Error("--preview does not go with --frames: a frame that is not whole would look done");
+  if (const std::string frame = flags.scene.said("render.frame"); !frame.empty())
+    throw Error(frame + ": the frames are those of --frames " + flags.frames +
+                "; accepted: one of the two");
   const airlight::SceneFile file = flags.scene.open();
   std::vector<std::int64_t> wanted;
   for (std::int64_t frame = range.first; frame <= range.last; ++frame) {

@@ -1,26 +1,12 @@
 #include "scene_flags.h"
 
+#include <algorithm>
+
 #include "error.h"
 #include "flags.h"
 #include "numbers.h"
 #include "render/prepare.h"
 #include "render/summary.h"
-
-namespace {
-
-/// Throws Error for an estimator that is not known, at the flag that named it.
-void check_estimator(const airlight::Scene& scene, const std::vector<airlight::Override>& changes) {
-  try {
-    airlight::estimator_for(scene.render);
-  } catch (const airlight::Error& error) {
-    std::string place;
-    for (const airlight::Override& change : changes)
-      if (change.path == "render.estimator") place = change.said + ": ";
-    throw airlight::Error(place + error.what());
-  }
-}
-
-}  // namespace
 
 void SceneFlags::declare(CLI::App& verb, const std::vector<std::string>& without) {
   verb.add_option("SCENE", file_, "a scene (.toml) or a model (.obj, .gltf, .glb)")
@@ -68,19 +54,29 @@ void SceneFlags::preset(const std::string& path, const std::string& value) {
   changes_.emplace(changes_.begin(), path, value, path + " = " + value);
 }
 
-airlight::Scene SceneFlags::load() const {
-  airlight::Scene scene = airlight::load_scene(file_, changes_);
-  check_estimator(scene, changes_);
-  return scene;
-}
+airlight::Scene SceneFlags::load() const { return checked(airlight::load_scene(file_, changes_)); }
 
 airlight::Scene SceneFlags::load(const airlight::SceneFile& file, std::int64_t frame) const {
-  airlight::Scene scene = file.scene(frame);
-  check_estimator(scene, changes_);
-  return scene;
+  return checked(file.scene(frame));
 }
 
 airlight::SceneFile SceneFlags::open() const { return airlight::SceneFile(file_, changes_); }
+
+std::string SceneFlags::said(const std::string& path) const {
+  const auto change =
+      std::ranges::find(changes_.rbegin(), changes_.rend(), path, &airlight::Override::path);
+  return change == changes_.rend() ? "" : change->said;
+}
+
+airlight::Scene SceneFlags::checked(airlight::Scene scene) const {
+  try {
+    airlight::estimator_for(scene.render);
+  } catch (const airlight::Error& error) {
+    const std::string flag = said("render.estimator");
+    throw airlight::Error((flag.empty() ? "" : flag + ": ") + error.what());
+  }
+  return scene;
+}
 
 void SceneFlags::tell(const airlight::Scene& scene) {
   if (!scene.assumptions.empty()) fmt::print(stderr, "{}\n", fmt::join(scene.assumptions, "; "));

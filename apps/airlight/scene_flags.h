@@ -26,7 +26,13 @@ class SceneFlags {
 
   const std::filesystem::path& file() const { return file_; }
 
+  /// The flag that changed a value last, as it was given; empty if none did.
+  std::string said(const std::string& path) const;
+
  private:
+  /// The scene, if its estimator is known. Throws airlight::Error, at the flag that named it.
+  airlight::Scene checked(airlight::Scene scene) const;
+
   std::filesystem::path file_;
   std::vector<airlight::Override> changes_;
 };
