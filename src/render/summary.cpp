@@ -193,7 +193,7 @@ void warn_of_medium(const Medium& medium, const MediumSummary& fog,
     warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
 }
 
-/// Rays start above surfaces by what single precision takes: more than a hundredth of all objects
+/// Rays start above surfaces by what single precision takes: more than a thousandth of all objects
 /// is no small part of a room any more.
 void warn_of_distance(const Scene& scene, std::vector<std::string>& warnings) {
   const Bounds bounds = bounds_of(scene.objects);
@@ -202,7 +202,7 @@ void warn_of_distance(const Scene& scene, std::vector<std::string>& warnings) {
   for (int k = 0; k < 3; ++k)
     distance += std::max(std::abs(bounds.min[k]), std::abs(bounds.max[k]));
   const double lift = World::lift * distance, size = length(bounds.size());
-  if (lift > size / 100)
+  if (lift > size / 1000)
     warnings.push_back(
         fmt::format("the objects are {:.3g} m across and so far from the origin that rays which "
                     "leave a surface start up to {:.2g} m above it; move the scene to the origin",
