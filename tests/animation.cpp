@@ -716,7 +716,7 @@ TEST(Frames, find_a_plate_that_is_not_there_before_the_first) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.err, fmt::format("--background {}: background_image names a picture that is "
                                      "not there: {} (at frame 2)\n",
-                                     plates, desk.folder / "plate.2.png"));
+                                     plates, (desk.folder / "plate.2.png").string()));
   EXPECT_THAT(desk.folder.names(), ElementsAre("film.toml", "plate.0.png", "plate.1.png"));
 }
 

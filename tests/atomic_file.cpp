@@ -14,7 +14,7 @@
 #include "error.h"
 #include "image/read_file.h"
 #include "support/error_of.h"
-#include "support/scratch.h"
+#include "support/folder.h"
 
 using namespace airlight;
 using airlight::test::error_of;
@@ -41,7 +41,7 @@ class FileSizeLimit {
 }  // namespace
 
 TEST(AtomicFile, appears_with_its_commit) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   AtomicFile file(folder / "a.txt");
   file.write("hello ");
   file.write("fog");
@@ -52,7 +52,7 @@ TEST(AtomicFile, appears_with_its_commit) {
 }
 
 TEST(AtomicFile, leaves_the_old_file_without_a_commit) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   write_text(folder / "a.txt", "old");
   {
     AtomicFile file(folder / "a.txt");
@@ -63,7 +63,7 @@ TEST(AtomicFile, leaves_the_old_file_without_a_commit) {
 }
 
 TEST(AtomicFile, seeks_back_and_forth) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   AtomicFile file(folder / "a.bin");
   std::string expected(1'000'000, 'b');
   file.write(expected);
@@ -80,7 +80,7 @@ TEST(AtomicFile, seeks_back_and_forth) {
 }
 
 TEST(AtomicFile, has_the_permissions_of_an_ordinary_file_or_of_the_old_one) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const auto mode = [](const std::filesystem::path& path) {
     struct stat status {};
     ::stat(path.c_str(), &status);
@@ -96,7 +96,7 @@ TEST(AtomicFile, has_the_permissions_of_an_ordinary_file_or_of_the_old_one) {
 }
 
 TEST(AtomicFile, follows_links) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   std::filesystem::create_directory(folder / "there");
   std::filesystem::create_symlink("there/file", folder / "link");
   for (const char* text : {"made", "replaced"}) {
@@ -112,7 +112,7 @@ TEST(AtomicFile, does_not_replace_a_device) {
 }
 
 TEST(AtomicFile, writes_into_a_pipe_behind_a_link) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
   std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(pipe[1]), folder / "a.txt");
@@ -125,7 +125,7 @@ TEST(AtomicFile, writes_into_a_pipe_behind_a_link) {
 }
 
 TEST(AtomicFile, says_why_a_target_will_not_do) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::string name = folder.path().string();
   EXPECT_EQ(error_of([&] { check_writable(folder / "no/a.txt"); }),
             name + "/no/a.txt: cannot be written: there is no folder " + name + "/no");
@@ -143,7 +143,7 @@ TEST(AtomicFile, says_why_a_target_will_not_do) {
 
 TEST(AtomicFile, respects_what_is_read_only) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anything";
-  const ScratchFolder folder;
+  const test::Folder folder;
   write_text(folder / "a.txt", "kept");
   ::chmod((folder / "a.txt").c_str(), 0444);
   EXPECT_THAT(error_of([&] { check_writable(folder / "a.txt"); }), EndsWith("Permission denied"));
@@ -153,7 +153,7 @@ TEST(AtomicFile, respects_what_is_read_only) {
 }
 
 TEST(AtomicFile, leaves_nothing_after_the_next_file_whenever_it_was_killed) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::filesystem::path target = folder / "a.txt";
   for (int life = 0; life < 100; ++life) {
     const pid_t child = ::fork();
@@ -173,7 +173,7 @@ TEST(AtomicFile, leaves_nothing_after_the_next_file_whenever_it_was_killed) {
 }
 
 TEST(AtomicFile, is_one_of_those_that_are_written_at_once) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::filesystem::path target = folder / "a.txt";
   std::vector<std::jthread> writers;
   for (const char* text : {"one", "two", "three"})
@@ -186,7 +186,7 @@ TEST(AtomicFile, is_one_of_those_that_are_written_at_once) {
 }
 
 TEST(AtomicFile, checking_leaves_nothing_behind) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   check_writable(folder / "a.txt");
   EXPECT_EQ(folder.files(), 0U);
   write_text(folder / "a.txt", "old");
@@ -196,14 +196,14 @@ TEST(AtomicFile, checking_leaves_nothing_behind) {
 }
 
 TEST(AtomicFile, reports_a_full_device_with_the_name_that_the_user_gave) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   std::filesystem::create_symlink("/dev/full", folder / "full.txt");
   EXPECT_EQ(error_of([&] { write_text(folder / "full.txt", "hello"); }),
             (folder / "full.txt").string() + ": cannot be written: No space left on device");
 }
 
 TEST(AtomicFile, leaves_the_old_file_when_the_disk_is_full) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   write_text(folder / "a.txt", "old");
   {
     const FileSizeLimit limit(100'000);
@@ -215,7 +215,7 @@ TEST(AtomicFile, leaves_the_old_file_when_the_disk_is_full) {
 }
 
 TEST(AtomicFile, remembers_an_error_that_somebody_swallowed) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   AtomicFile file(folder / "a.txt");
   {
     const FileSizeLimit limit(100'000);
@@ -227,7 +227,7 @@ TEST(AtomicFile, remembers_an_error_that_somebody_swallowed) {
 }
 
 TEST(ReadFile, says_why_it_cannot) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   EXPECT_EQ(error_of([&] { read_file(folder / "sun.png"); }),
             (folder / "sun.png").string() + ": cannot be read: No such file or directory");
   EXPECT_EQ(error_of([&] { read_text(folder.path()); }),
@@ -235,7 +235,7 @@ TEST(ReadFile, says_why_it_cannot) {
 }
 
 TEST(ReadFile, gives_every_byte) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   std::string bytes(300'000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = char(i * i >> 3);
   write_text(folder / "b", bytes);

@@ -10,8 +10,8 @@
 #include "geometry/world.h"
 #include "render/render.h"
 #include "scene/load_scene.h"
+#include "support/folder.h"
 #include "support/quadrature.h"
-#include "support/scratch.h"
 #include "support/stats.h"
 
 namespace airlight {
@@ -101,7 +101,7 @@ TEST(BeamsInFiles, are_refused_with_a_reason) {
 }
 
 TEST(BeamsInFiles, say_which_image_cannot_be_read) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   std::ofstream(folder / "broken.png") << "\x89PNG and no more";
   for (const char* name : {"absent.png", "broken.png"}) {
     std::ofstream(folder / "stage.toml") << beam_of(down + round_ + "image = \"" + name + "\"\n");

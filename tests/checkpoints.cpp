@@ -199,7 +199,7 @@ TEST(CheckpointKeeper, tells_whatever_keeps_it_from_writing) {
                           film, {}, []() -> Origin { throw std::bad_alloc(); });
   EXPECT_TRUE(wait_for([&] { return failures > 0; }));  // by the keeper's own thread
   EXPECT_FALSE(keeper.finish());
-  EXPECT_EQ(told, folder / "a.ckpt" + ": cannot be written: std::bad_alloc");
+  EXPECT_EQ(told, (folder / "a.ckpt").string() + ": cannot be written: std::bad_alloc");
   EXPECT_THAT(folder.names(), ElementsAre());
 }
 

@@ -552,7 +552,8 @@ TEST(Backgrounds, of_another_size_are_brought_to_that_of_the_render) {
     const auto outcome = test::run(
         {"render", folder / "scene.toml", "--size", size, "--spp", "1", "-o", folder / "out.pfm"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(folder / "plate.pfm" + " is 8 x 6 pixels and is shown at "));
+    EXPECT_THAT(outcome.err,
+                HasSubstr((folder / "plate.pfm").string() + " is 8 x 6 pixels and is shown at "));
     const Image shown = read_image(folder / "out.pfm");
     // What lies at the edge counts a little more or less.
     EXPECT_NEAR(mean(shown), mean(plate), 0.05 * mean(plate));

@@ -22,7 +22,7 @@
 #include "image/read_file.h"
 #include "image/srgb.h"
 #include "support/error_of.h"
-#include "support/scratch.h"
+#include "support/folder.h"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Picture, EveryFormat, testing::Values("exr", "pfm", "pn
 }  // namespace
 
 TEST(Exr, keeps_single_precision_exactly) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   for (const auto& [width, height] : {std::pair(37, 50), std::pair(1, 1), std::pair(3, 16)}) {
     const Image image = noise(width, height);
     write_exr(folder / "a.exr", picture_of(image), ExrType::single);
@@ -122,7 +122,7 @@ TEST(Exr, keeps_single_precision_exactly) {
 }
 
 TEST(Exr, rounds_half_precision_to_the_nearest) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(20, 20);
   write_exr(folder / "a.exr", picture_of(image), ExrType::half);
   const Image read = read_image(folder / "a.exr");
@@ -131,7 +131,7 @@ TEST(Exr, rounds_half_precision_to_the_nearest) {
 }
 
 TEST(Exr, clamps_what_half_precision_cannot_hold) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = one_row({1e30F, -70000, 65519, 65520, 65504, 1});
   write_exr(folder / "a.exr", picture_of(image), ExrType::half);
   EXPECT_THAT(read_image(folder / "a.exr").pixels,
@@ -139,7 +139,7 @@ TEST(Exr, clamps_what_half_precision_cannot_hold) {
 }
 
 TEST(Exr, keeps_every_layer_with_its_precision) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image beauty = noise(9, 20);
   const Image normal = noise(9, 20);
   Image depth = noise(9, 20, 1);
@@ -170,7 +170,7 @@ TEST(Exr, keeps_every_layer_with_its_precision) {
 }
 
 TEST(Exr, names_the_channels_it_has_when_a_layer_is_missing) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(2, 2);
   write_exr(folder / "a.exr", picture_of(image), ExrType::half);
   EXPECT_EQ(
@@ -180,7 +180,7 @@ TEST(Exr, names_the_channels_it_has_when_a_layer_is_missing) {
 }
 
 TEST(Exr, places_a_crop_in_the_whole) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(30, 40);
   Picture picture = picture_of(image);
   picture.crop = Crop{100, 200, 640, 480};
@@ -192,7 +192,7 @@ TEST(Exr, places_a_crop_in_the_whole) {
 }
 
 TEST(Exr, keeps_metadata) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(2, 2);
   Picture picture = picture_of(image);
   picture.metadata = {{"estimator", "rewv"},
@@ -208,7 +208,7 @@ TEST(Exr, keeps_metadata) {
 }
 
 TEST(Pfm, keeps_values_exactly) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(31, 17);
   write_pfm(folder / "a.pfm", picture_of(image));
   const Image read = read_image(folder / "a.pfm");
@@ -217,7 +217,7 @@ TEST(Pfm, keeps_values_exactly) {
 }
 
 TEST(Pfm, is_the_format_byte_for_byte) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   Image image(1, 2);
   image.pixels = {1, 2, 3, -0.5F, 0, 0};
   write_pfm(folder / "a.pfm", picture_of(image));
@@ -229,7 +229,7 @@ TEST(Pfm, is_the_format_byte_for_byte) {
 }
 
 TEST(Pfm, is_read_in_grey_and_in_the_other_byte_order) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   using namespace std::string_literals;
   write_text(folder / "a.pfm", "Pf 2 1 1.0\n\x3f\x80\0\0\x40\0\0\0"s);
   EXPECT_THAT(read_image(folder / "a.pfm").pixels, ElementsAre(1, 1, 1, 2, 2, 2));
@@ -248,13 +248,13 @@ TEST(Srgb, knows_its_codes) {
 }
 
 TEST(Png, holds_srgb_codes_of_the_light) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   write_png(folder / "a.png", picture_of(one_row({0, 0.5F, 1, -3, 0.18F, 40})));
   EXPECT_THAT(codes_in(folder / "a.png"), ElementsAre(0, 188, 255, 0, 118, 255));
 }
 
 TEST(Png, is_read_back_as_linear_light) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   Image image(256, 2);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 256; ++x)
@@ -265,14 +265,14 @@ TEST(Png, is_read_back_as_linear_light) {
 }
 
 TEST(Png, is_exposed_in_stops) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   write_png(folder / "a.png", picture_of(one_row({0.25F, 0.125F, 0.0625F})), {1, ToneMap::none});
   write_png(folder / "b.png", picture_of(one_row({0.5F, 0.25F, 0.125F})));
   EXPECT_EQ(codes_in(folder / "a.png"), codes_in(folder / "b.png"));
 }
 
 TEST(Png, takes_the_filmic_curve) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   // 0.18 (2.51 0.18 + 0.03) / (0.18 (2.43 0.18 + 0.59) + 0.14) = 0.26689; 2.54 / 3.16 = 0.80380.
   EXPECT_NEAR(filmic(0.18F), 0.26689F, 1e-5F);
   EXPECT_NEAR(filmic(1), 0.80380F, 1e-5F);
@@ -283,7 +283,7 @@ TEST(Png, takes_the_filmic_curve) {
 }
 
 TEST(Png, keeps_metadata) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(2, 2);
   Picture picture = picture_of(image);
   picture.metadata = {{"estimator", "rewv"},
@@ -297,7 +297,7 @@ TEST(Png, keeps_metadata) {
 }
 
 TEST(Png, is_read_in_16_bit_and_over_black) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const png_uint_16 wide[] = {65535, 32768, 1000};
   write_pixel(PNG_FORMAT_LINEAR_RGB, wide, folder / "wide.png");
   const Image linear = read_image(folder / "wide.png");
@@ -319,7 +319,7 @@ TEST(Png, is_read_in_16_bit_and_over_black) {
 }
 
 TEST(Png, of_numbers_has_no_transparent_grey) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::string path = folder / "a.png";
   std::FILE* file = std::fopen(path.c_str(), "wb");
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -341,7 +341,7 @@ TEST(Png, of_numbers_has_no_transparent_grey) {
 }
 
 TEST(Exr, of_luminance_is_grey) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   Image grey(3, 2, 1);
   for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = 0.25F * float(i);
   Picture picture;
@@ -355,7 +355,7 @@ TEST(Exr, of_luminance_is_grey) {
 }
 
 TEST(Codes, are_those_of_the_file) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const auto codes_of = [&](png_uint_32 format, const void* codes) {
     write_pixel(format, codes, folder / "a.png");
     const std::vector<std::byte> bytes = read_file(folder / "a.png");
@@ -372,7 +372,7 @@ TEST(Codes, are_those_of_the_file) {
 }
 
 TEST(ReadImage, takes_what_others_write) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::uint8_t codes[] = {255, 128, 0, 10, 20, 30};
   ASSERT_TRUE(stbi_write_bmp((folder / "a.bmp").c_str(), 2, 1, 3, codes));
   ASSERT_TRUE(stbi_write_tga((folder / "a.tga").c_str(), 2, 1, 3, codes));
@@ -397,7 +397,7 @@ TEST(ReadImage, takes_what_others_write) {
 }
 
 TEST(ReadImage, takes_run_lengths_of_radiance_files) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   Image image(300, 2);
   for (int x = 0; x < 300; ++x)
     for (int y = 0; y < 2; ++y)
@@ -408,7 +408,7 @@ TEST(ReadImage, takes_run_lengths_of_radiance_files) {
 }
 
 TEST(ReadImage, names_the_file_and_the_reason) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::string name = folder.path().string();
   EXPECT_EQ(error_of([&] { read_image(folder / "sun.png"); }),
             name + "/sun.png: cannot be read: No such file or directory");
@@ -424,7 +424,7 @@ TEST(ReadImage, names_the_file_and_the_reason) {
 }
 
 TEST(ReadImage, survives_broken_files) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(40, 40);
   std::vector<std::uint8_t> codes(40 * 40 * 3);
   for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = std::uint8_t(i * i / 7);
@@ -467,7 +467,7 @@ TEST(ReadImage, survives_broken_files) {
 }
 
 TEST_P(EveryFormat, is_picked_by_its_extension) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = one_row({0, 1, 0.5F});
   const std::string upper =
       GetParam() == std::string("exr") ? "a.EXR" : std::string("a.") + GetParam();
@@ -484,7 +484,7 @@ TEST(Picture, has_no_format_without_a_known_extension) {
 }
 
 TEST_P(EveryFormat, is_checked_before_a_long_render) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const std::string name = std::string("a.") + GetParam();
   check_picture_path(folder / name);
   EXPECT_EQ(folder.files(), 0U);
@@ -496,7 +496,7 @@ TEST_P(EveryFormat, is_checked_before_a_long_render) {
 }
 
 TEST_P(EveryFormat, refuses_what_is_not_finite_and_keeps_the_old_file) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const auto path = folder / (std::string("a.") + GetParam());
   write_text(path, "old");
   for (const float bad : {not_a_number, std::numeric_limits<float>::infinity()}) {
@@ -511,7 +511,7 @@ TEST_P(EveryFormat, refuses_what_is_not_finite_and_keeps_the_old_file) {
 }
 
 TEST(Exr, refuses_an_id_that_is_none) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const Image image = noise(2, 2);
   Image id(2, 2, 1);
   id.at(1, 0, 0) = -1;
@@ -524,7 +524,7 @@ TEST(Exr, refuses_an_id_that_is_none) {
 }
 
 TEST_P(EveryFormat, leaves_the_old_file_when_the_disk_is_full) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   const auto path = folder / (std::string("a.") + GetParam());
   write_text(path, "old");
   const Image image = noise(400, 400);
@@ -546,7 +546,7 @@ TEST_P(EveryFormat, leaves_the_old_file_when_the_disk_is_full) {
 }
 
 TEST_P(EveryFormat, asks_for_every_row_once) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   std::vector<int> asked(100);
   Picture picture{5, 100, {}, {}, {}};
   picture.layers = {{"beauty", {"R", "G", "B"}, [&](int y, std::span<float> row) {

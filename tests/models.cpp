@@ -8,8 +8,8 @@
 
 #include "error.h"
 #include "scene/load_scene.h"
+#include "support/folder.h"
 #include "support/gltf_builder.h"
-#include "support/scratch.h"
 
 namespace airlight {
 namespace {
@@ -75,7 +75,7 @@ class Models : public ::testing::Test {
     write_text(scratch_ / name, tga);
   }
 
-  ScratchFolder scratch_;
+  test::Folder scratch_;
 };
 
 using Obj = Models;
@@ -729,7 +729,7 @@ TEST_F(InScenes, the_models_own_camera_and_lights_count) {
 // ---- Files that something chewed on
 
 /// Loads every damaged copy: it may be accepted or refused in one line, never more.
-void chew(const ScratchFolder& scratch, const std::string& name, const std::string& whole,
+void chew(const test::Folder& scratch, const std::string& name, const std::string& whole,
           int copies) {
   std::minstd_rand random(7);
   int refused = 0;

@@ -13,8 +13,8 @@
 #include "render/film.h"
 #include "scene/load_scene.h"
 #include "scene/reader.h"
+#include "support/folder.h"
 #include "support/program.h"
-#include "support/scratch.h"
 
 namespace airlight {
 namespace {
@@ -362,7 +362,7 @@ TEST(SceneReader, refuses_media_that_do_not_fit_side_by_side) {
 
 /// A file with triangles over the unit cube's corners, and a scene with fog inside it.
 struct MeshOfFog {
-  ScratchFolder folder;
+  test::Folder folder;
 
   explicit MeshOfFog(const std::string& faces) {
     std::string corners;

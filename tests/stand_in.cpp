@@ -11,7 +11,7 @@
 #include "scene/load_scene.h"
 #include "scene/look_around.h"
 #include "scene/objects/build.h"
-#include "support/scratch.h"
+#include "support/folder.h"
 
 namespace airlight {
 namespace {
@@ -241,7 +241,7 @@ TEST(StandIn, keeps_the_camera_and_the_lights_of_a_model) {
 }
 
 TEST(StandIn, makes_a_scene_of_a_model_file) {
-  const ScratchFolder scratch;
+  const test::Folder scratch;
   const std::filesystem::path file = scratch / R"(a '''b"c.obj)";
   write_text(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Scene scene = load_scene(file, {"render.spp=3", "lights.0.azimuth=10", "camera.fov=20"});

@@ -8,8 +8,8 @@
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/output.h"
+#include "support/folder.h"
 #include "support/random.h"
-#include "support/scratch.h"
 
 using namespace airlight;
 using testing::ElementsAre;
@@ -122,7 +122,7 @@ TEST(Texture, gives_one_channel_as_it_gives_all) {
 }
 
 TEST(Texture, is_loaded_from_a_file_with_its_codes_as_they_are) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   Image image(2, 1);
   image.pixels = {0, 0.5F, 1, 1, 0, 0};
   write_png(folder / "t.png", picture_of(image));
@@ -134,7 +134,7 @@ TEST(Texture, is_loaded_from_a_file_with_its_codes_as_they_are) {
 }
 
 TEST(Texture, names_the_file_that_is_none) {
-  const ScratchFolder folder;
+  const test::Folder folder;
   write_text(folder / "leaf.png", "hello");
   try {
     load_texture(folder / "leaf.png");
