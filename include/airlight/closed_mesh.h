@@ -3,13 +3,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "box_tree.h"
+
 namespace airlight {
 
 /// Triangles that close off a body without touching each other but at shared edges and corners, and
 /// a tree of boxes over them. Plain data, so that it is the same for every instruction set; whoever
 /// makes one sees to the promises below (the renderer's `close_mesh` proves them).
 struct ClosedMesh {
-  using Point = std::array<double, 3>;
+  using Point = BoxTree::Point;
 
   /// No plane cuts more triangles: what is kept along a ray has a fixed size.
   static constexpr int most_cut = 640;
@@ -18,14 +20,7 @@ struct ClosedMesh {
   /// Anticlockwise seen from outside. Triangles that share an edge share its corners.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Point centre{};  ///< the origin of the corners' coordinates  [m]
-
-  /// Nodes in depth-first order: the first child follows its parent, `next` comes where a box is
-  /// left out. A leaf holds triangles[first] to triangles[first + count − 1].
-  struct Node {
-    Point middle, half;  ///< of the box, which is a little larger than its triangles
-    std::uint32_t first = 0, count = 0, next = 0;
-  };
-  std::vector<Node> tree;
+  BoxTree tree;    ///< over the triangles
 };
 
 }  // namespace airlight

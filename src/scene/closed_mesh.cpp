@@ -11,14 +11,17 @@ std::shared_ptr<const ClosedMesh> close_mesh(
   closed_mesh::Soup soup = closed_mesh::welded(points, triangles);
   connect(soup);
   turn_out(soup);
-  closed_mesh::Tree tree = tree_over(soup);
-  check_crossings(soup, tree);
+  std::vector<Bounds> boxes(soup.triangles.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (int i = 0; i < 3; ++i) boxes[k].extend(soup.corner(k, i));
+  OrderedBoxTree ordered = tree_over(boxes);
+  check_crossings(soup, boxes, ordered);
   check_cuts(soup);
   const auto mesh = std::make_shared<ClosedMesh>();
   for (const Vec3<double>& p : soup.corners) mesh->corners.push_back({p.x, p.y, p.z});
-  for (const std::size_t k : tree.order) mesh->triangles.push_back(soup.triangles[k]);
+  for (const std::size_t k : ordered.order) mesh->triangles.push_back(soup.triangles[k]);
   mesh->centre = {soup.centre.x, soup.centre.y, soup.centre.z};
-  mesh->tree = std::move(tree.nodes);
+  mesh->tree = std::move(ordered.tree);
   return mesh;
 }
 

@@ -103,48 +103,19 @@ class MeshSection {
   Piece pieces_[most_pieces];
 };
 
-namespace detail {
-
-inline Vec3<double> point_of(const ClosedMesh::Point& p) noexcept { return {p[0], p[1], p[2]}; }
-
-/// Calls visit(a, b, c) with the corners' indices of the triangles in boxes that are not left out.
-template <class LeaveOut, class Visit>
-void for_each_triangle(const ClosedMesh& mesh, LeaveOut&& leave_out, Visit&& visit) noexcept {
-  for (std::size_t i = 0; i < mesh.tree.size();) {
-    const ClosedMesh::Node& node = mesh.tree[i];
-    if (leave_out(point_of(node.middle), point_of(node.half))) {
-      i = node.next;
-      continue;
-    }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const auto& [a, b, c] = mesh.triangles[k];
-      visit(a, b, c);
-    }
-    ++i;
-  }
-}
-
-/// How far a linear function with gradient g varies over a box, either way from its middle.
-inline double reach(Vec3<double> g, Vec3<double> half) noexcept {
-  return std::abs(g.x) * half.x + std::abs(g.y) * half.y + std::abs(g.z) * half.z;
-}
-
-}  // namespace detail
-
 inline MeshCrossings::MeshCrossings(const ClosedMesh& mesh, Vec3<double> o,
                                     Vec3<double> d) noexcept {
-  using detail::point_of;
   // The line is where two planes through it meet.
   Vec3<double> e1, e2;
   orthonormal_basis(normalize(d), e1, e2);
   const double rounding = 1e-15 * length(d);  // of a line's side, over the sizes of the corners
   const auto misses = [&](Vec3<double> middle, Vec3<double> half) {
     const Vec3<double> q = middle - o;
-    return std::abs(dot(e1, q)) > detail::reach(e1, half) ||
-           std::abs(dot(e2, q)) > detail::reach(e2, half);
+    return std::abs(dot(e1, q)) > half_range(e1, half) ||
+           std::abs(dot(e2, q)) > half_range(e2, half);
   };
-  detail::for_each_triangle(mesh, misses, [&](auto... index) {
-    const std::uint32_t corner[3] = {index...};
+  for_each_near(mesh.tree, misses, [&](std::uint32_t triangle) {
+    const auto& corner = mesh.triangles[triangle];
     Vec3<double> p[3];
     double size[3];
     for (int i = 0; i < 3; ++i) {
@@ -195,18 +166,17 @@ inline MeshSection::MeshSection(const ClosedMesh& mesh, Vec3<double> o, Vec3<dou
 
 inline void MeshSection::cut(const ClosedMesh& mesh, Vec3<double> o, Vec3<double> d, Vec3<double> w,
                              double sine, double t_max, const LightStart<double>& start) noexcept {
-  using detail::point_of;
   // p = o + t d + s w + r n.
   const Vec3<double> n = cross(d, w) * (1 / sine);
   const Vec3<double> t_of = cross(w, n) * (1 / sine), s_of = cross(n, d) * (1 / sine);
   const auto without_effect = [&](Vec3<double> middle, Vec3<double> half) {
     const Vec3<double> q = middle - o;
-    const double t = dot(t_of, q), t_reach = detail::reach(t_of, half);
-    return std::abs(dot(n, q)) > detail::reach(n, half) || t + t_reach < 0 || t - t_reach > t_max ||
-           dot(s_of, q) + detail::reach(s_of, half) < 0;
+    const double t = dot(t_of, q), t_reach = half_range(t_of, half);
+    return std::abs(dot(n, q)) > half_range(n, half) || t + t_reach < 0 || t - t_reach > t_max ||
+           dot(s_of, q) + half_range(s_of, half) < 0;
   };
-  detail::for_each_triangle(mesh, without_effect, [&](auto... index) {
-    const std::uint32_t corner[3] = {index...};
+  for_each_near(mesh.tree, without_effect, [&](std::uint32_t triangle) {
+    const auto& corner = mesh.triangles[triangle];
     Vec3<double> p[3];
     double r[3];
     for (int i = 0; i < 3; ++i) {
@@ -330,8 +300,7 @@ class Solid::Space {
   static constexpr int most_stretches = (ClosedMesh::most_cut + 1) / 2;
   static constexpr int most_pieces = MeshSection::most_pieces;
 
-  explicit Space(const ClosedMesh& mesh) noexcept
-      : mesh_(&mesh), centre_(detail::point_of(mesh.centre)) {}
+  explicit Space(const ClosedMesh& mesh) noexcept : mesh_(&mesh), centre_(point_of(mesh.centre)) {}
 
   template <Real F>
   Vec3<F> point(Vec3<F> p) const noexcept {

@@ -102,31 +102,20 @@ class Crossings {
   std::set<std::pair<std::size_t, std::size_t>> crossed_[2];  ///< shells, moved along it or against
 };
 
-bool meet(const Bounds& bounds, const ClosedMesh::Node& node) {
-  for (std::size_t i = 0; i < 3; ++i)
-    if (bounds.min[int(i)] > node.middle[i] + node.half[i] ||
-        bounds.max[int(i)] < node.middle[i] - node.half[i])
-      return false;
-  return true;
-}
-
 }  // namespace
 
-void check_crossings(const Soup& soup, const Tree& tree) {
-  const auto& [order, nodes] = tree;
+void check_crossings(const Soup& soup, std::span<const Bounds> boxes, const OrderedBoxTree& tree) {
   Crossings crossings(soup);
-  for (std::size_t k = 0; k < soup.triangles.size(); ++k) {
-    const Bounds bounds = bounds_of(soup, k);
-    for (std::size_t n = 0; n < nodes.size();) {
-      const ClosedMesh::Node& node = nodes[n];
-      if (!meet(bounds, node)) {
-        n = node.next;
-        continue;
-      }
-      for (std::size_t i = node.first; i < node.first + node.count; ++i)
-        if (order[i] > k) crossings.see(k, order[i]);
-      ++n;
-    }
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const Vec centre = boxes[k].centre(), size = boxes[k].size();
+    const auto apart = [&](const Vec& middle, const Vec& half) {
+      const Vec off = middle - centre;
+      return std::abs(off.x) > half.x + 0.5 * size.x || std::abs(off.y) > half.y + 0.5 * size.y ||
+             std::abs(off.z) > half.z + 0.5 * size.z;
+    };
+    for_each_near(tree.tree, apart, [&](std::uint32_t i) {
+      if (tree.order[i] > k) crossings.see(k, tree.order[i]);
+    });
   }
 }
 

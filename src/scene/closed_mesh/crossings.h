@@ -1,9 +1,11 @@
 #pragma once
-#include "scene/closed_mesh/tree.h"
+#include "scene/box_tree.h"
+#include "scene/closed_mesh/soup.h"
 
 namespace airlight::closed_mesh {
 
-/// Throws Error if triangles cross, but at edges and corners that they share.
-void check_crossings(const Soup& soup, const Tree& tree);
+/// Throws Error if triangles cross, but at edges and corners that they share; the tree is over
+/// their boxes.
+void check_crossings(const Soup& soup, std::span<const Bounds> boxes, const OrderedBoxTree& tree);
 
 }  // namespace airlight::closed_mesh
