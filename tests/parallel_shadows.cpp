@@ -26,6 +26,18 @@ Object tetrahedron(test::Random& random) {
   return {"tetrahedron", mesh, {}};
 }
 
+/// So many that they fill a tree of some depth.
+Object shards(test::Random& random) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Vec3<double> centre = random.in_the_cube();
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.push_back(Vec3<float>(centre + random.in_the_cube() * 0.1));
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return {"shards", mesh, {}};
+}
+
 Scene any_scene(unsigned seed) {
   test::Random random(seed);
   Scene scene;
@@ -33,6 +45,7 @@ Scene any_scene(unsigned seed) {
     scene.objects.push_back(ball(random.in_the_cube(), random.uniform(0.05, 0.4)));
     scene.objects.push_back(tetrahedron(random));
   }
+  if (seed % 8 < 2) scene.objects.push_back(shards(random));
   return scene;
 }
 

@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "geometry/surface_filter.h"
+#include "scene/box_tree.h"
 #include "scene/scene.h"
 
 namespace airlight {
@@ -34,6 +35,10 @@ Interval<double> at_least_zero(double a, double b) {
   return b > 0 ? Interval<double>{-a / b, far_away} : Interval<double>{-far_away, -a / b};
 }
 
+Vec3<double> normal_of(const std::array<Vec3<double>, 3>& corners) {
+  return cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
 bool empty(Interval<double> i) { return !(i.t_enter < i.t_exit); }
 
 Interval<double> both(Interval<double> a, Interval<double> b) {
@@ -51,6 +56,7 @@ Interval<double> either(Interval<double> a, Interval<double> b) {
 
 ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel, double start)
     : travel_(travel), start_(start) {
+  std::vector<Triangle> triangles;
   for (const Object& object : scene.objects) {
     const SurfaceFilter surface(scene, object);
     if (surface.is_clear()) continue;
@@ -65,8 +71,10 @@ ParallelShadows::ParallelShadows(const Scene& scene, Vec3<double> travel, double
     const Mesh& mesh = std::get<Mesh>(object.geometry);
     for (const auto& [a, b, c] : mesh.triangles)
       add_beyond_start({Vec3<double>(mesh.positions[a]), Vec3<double>(mesh.positions[b]),
-                        Vec3<double>(mesh.positions[c])});
+                        Vec3<double>(mesh.positions[c])},
+                       triangles);
   }
+  throw_prisms(triangles);
 }
 
 void ParallelShadows::add(const Sphere& sphere) {
@@ -86,27 +94,39 @@ void ParallelShadows::add(const Sphere& sphere) {
 }
 
 /// Cuts off what lies before the plane where light starts: a triangle or two remain, or none.
-void ParallelShadows::add_beyond_start(const Vec3<double> (&corners)[3]) {
+void ParallelShadows::add_beyond_start(const Triangle& corners,
+                                       std::vector<Triangle>& triangles) const {
   Vec3<double> kept[4];
   int count = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3<double>&p = corners[i], &q = corners[(i + 1) % 3];
+    const Vec3<double>&p = corners[std::size_t(i)], &q = corners[std::size_t(i + 1) % 3];
     const double at_p = dot(p, travel_) - start_, at_q = dot(q, travel_) - start_;
     if (at_p >= 0) kept[count++] = p;
     if ((at_p < 0) != (at_q < 0)) kept[count++] = p + (q - p) * (at_p / (at_p - at_q));
   }
-  for (int i = 2; i < count; ++i) add({kept[0], kept[i - 1], kept[i]});
+  for (int i = 2; i < count; ++i) {
+    const Triangle part = {kept[0], kept[i - 1], kept[i]};
+    // Seen edge on, or no triangle at all, it shades nothing.
+    if (dot(normal_of(part), travel_) != 0) triangles.push_back(part);
+  }
 }
 
-void ParallelShadows::add(const Vec3<double> (&corners)[3]) {
-  const auto& [a, b, c] = corners;
-  const Vec3<double> normal = cross(b - a, c - a);
-  const double facing = dot(normal, travel_);
-  if (facing == 0) return;  // seen edge on, or no triangle at all: it shades nothing
-  const Vec3<double> behind = facing > 0 ? normal : -normal;
+void ParallelShadows::throw_prisms(std::span<const Triangle> triangles) {
+  std::vector<Bounds> boxes(triangles.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (const Vec3<double>& corner : triangles[k]) boxes[k].extend(corner);
+  OrderedBoxTree ordered = tree_over(boxes);
+  for (const std::size_t k : ordered.order) prisms_.push_back(prism_behind(triangles[k]));
+  tree_ = std::move(ordered.tree);
+}
+
+ParallelShadows::Prism ParallelShadows::prism_behind(const Triangle& corners) const {
+  const auto& a = corners[0];
+  const Vec3<double> normal = normal_of(corners);
+  const Vec3<double> behind = dot(normal, travel_) > 0 ? normal : -normal;
   Prism prism;
   prism.faces[0] = {behind, dot(behind, a)};
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     // The side is found from the lower end of the edge to the upper one, so that the prisms of
     // triangles that share the edge touch without a gap.
     Vec3<double> low = corners[i], high = corners[(i + 1) % 3];
@@ -116,7 +136,7 @@ void ParallelShadows::add(const Vec3<double> (&corners)[3]) {
     const bool inward = dot(side, corners[(i + 2) % 3]) > offset;
     prism.faces[1 + i] = {inward ? side : -side, inward ? offset : -offset};
   }
-  prisms_.push_back(prism);
+  return prism;
 }
 
 Interval<double> ParallelShadows::shaded(const Prism& prism, Vec3<double> origin,
@@ -160,7 +180,25 @@ std::span<const Interval<double>> ParallelShadows::lit(
     const Interval<double> part = both(shadow, {0, t_max});
     if (!empty(part)) room[count++] = part;
   };
-  for (const Prism& prism : prisms_) shade(shaded(prism, origin, direction));
+  // Of all that lies in the plane through the ray and the light, only what is on the light's side
+  // of the ray and neither before its start nor beyond its end, seen along the light.
+  const Vec3<double> normal = cross(direction, travel_);
+  const Vec3<double> across = direction - travel_ * dot(direction, travel_);
+  const Vec3<double> away = travel_ - direction * dot(direction, travel_);
+  const double end = t_max * dot(across, across);
+  const auto shades_nothing = [&](Vec3<double> middle, Vec3<double> half) {
+    const Vec3<double> q = middle - origin;
+    const double t = dot(across, q), t_range = half_range(across, half);
+    // The three directions are known to rounding, which is all that is left of them along the
+    // light.
+    const Vec3<double> last_bits(1e-15, 1e-15, 1e-15);
+    const double rounding = half_range(q, last_bits) + half_range(half, last_bits);
+    return std::abs(dot(normal, q)) > half_range(normal, half) + rounding ||
+           t + t_range < -rounding || t - t_range > end + rounding ||
+           dot(away, q) > half_range(away, half) + rounding;
+  };
+  for_each_near(tree_, shades_nothing,
+                [&](std::uint32_t k) { shade(shaded(prisms_[k], origin, direction)); });
   for (const BallShadow& ball : balls_) {
     const Interval<double> shadow = shaded(ball.ball, origin, direction);
     const Interval<double> lit = hollow(ball, origin, direction);

@@ -1,4 +1,5 @@
 #pragma once
+#include <airlight/box_tree.h>
 #include <airlight/way_out.h>
 
 #include <span>
@@ -12,6 +13,7 @@ struct Sphere;
 /// The shadows that opaque objects cast in light that travels the same way everywhere, exactly: a
 /// triangle shades the prism behind it, a sphere itself and half a cylinder. A ray meets each of
 /// them in one interval; light that starts inside a sphere lights a hollow of it, which leaves two.
+/// Triangles are found by a tree: a ray takes as long as there are shadows near it.
 class ParallelShadows {
  public:
   /// `travel` is the unit direction in which the light goes. It may start at a plane travel · p =
@@ -33,6 +35,7 @@ class ParallelShadows {
     Vec3<double> normal;
     double offset;
   };
+  using Triangle = std::array<Vec3<double>, 3>;
   struct Prism {
     HalfSpace faces[4];  ///< of the triangle itself and of the three sides
   };
@@ -49,8 +52,9 @@ class ParallelShadows {
   };
 
   void add(const Sphere& sphere);
-  void add(const Vec3<double> (&corners)[3]);
-  void add_beyond_start(const Vec3<double> (&corners)[3]);
+  void add_beyond_start(const Triangle& corners, std::vector<Triangle>& triangles) const;
+  void throw_prisms(std::span<const Triangle> triangles);
+  Prism prism_behind(const Triangle& corners) const;
   static Interval<double> shaded(const Prism& prism, Vec3<double> origin, Vec3<double> direction);
   Interval<double> cylinder(Vec3<double> centre, double radius, Vec3<double> origin,
                             Vec3<double> direction) const;
@@ -61,6 +65,7 @@ class ParallelShadows {
   Vec3<double> travel_;
   double start_;
   std::vector<Prism> prisms_;
+  BoxTree tree_;  ///< over the prisms' triangles
   std::vector<BallShadow> balls_;
 };
 
