@@ -3,6 +3,7 @@
 
 #include "../estimator.h"
 #include "../forms.h"
+#include "../light_share.h"
 #include "../lit_part.h"
 #include "../math/sort.h"
 #include "../math/warp.h"
@@ -20,27 +21,6 @@ struct WatchedSample {
   Rgb<F> weight;      ///< transmittance over pdf  [m]
   Rgb<F> visibility;  ///< 0 to 1
   Mask<F> asked;      ///< the lanes whose sample asks this light
-};
-
-/// The samples that a light gets of a ray where each sample asks one light only: those whose
-/// number, times the sum of all lights' weights, falls on this light's. Picked with probability
-/// weight / total, the light counts for total / weight as much (Velinov 2021 section 1.1).
-template <Real F>
-struct LightShare {
-  F below;   ///< the sum of the weights of the lights before this one
-  F weight;  ///< >= 0
-  F total;   ///< of all lights' weights
-
-  /// Whether the light is the one for u in [0, 1), and u made uniform in [0, 1] again if so: one
-  /// number serves both, and strata stay strata.
-  Mask<F> takes(F& u) const noexcept {
-    const F x = u * total;
-    u = clamp((x - below) / select(weight > F(0), weight, F(1)), F(0), F(1));
-    return (x >= below) & (x < below + weight);
-  }
-
-  /// What a sample of the light counts for; of a light that is all but never picked, finite.
-  F boost() const noexcept { return min(total / select(weight > F(0), weight, F(1)), F(1e30f)); }
 };
 
 /// Samples along the camera ray, each asking once whether light arrives: any placement with any
@@ -75,8 +55,87 @@ struct Sampled {
     Point at;        ///< what the section knows of it
     F reach;         ///< from the sample to where light begins  [m]
     Mask<F> asked;   ///< the lanes whose sample asks this light
-    Rgb<F> weight;
+    Rgb<F> weight;   ///< transmittance over density, of lanes that ask  [m]
     Vec3<F> from;
+  };
+
+  /// The samples of one light on the lit part of one camera ray, in the order of what happens to
+  /// each: drawn, then asked for the light that arrives.
+  template <Real F, ParallelLight L, class Section, PlacedOn<Section> Placed>
+  struct OnRay {
+    const MediumRay<F>& ray;
+    const L& light;
+    int light_index;
+    Vec3<F> toward;  ///< the light
+    const Section& section;
+    const Placed& placed;
+    const LightShare<F>* share;  ///< null: all samples ask the light
+    bool intersect_every_step;
+
+    using Sample = Drawn<F, typename Section::Point>;
+
+    Sample draw(UInt<F> bits) const noexcept {
+      Sample d;
+      d.second = is_odd<F>(bits);
+      d.asked = ray.active;
+      F u = unit_interval<F>(bits);
+      if (share) {
+        d.asked = d.asked & share->takes(u);
+        if (!any(d.asked)) return d;
+      }
+      d.t = placed.sample(u);
+      d.along = ray.t_enter + d.t;
+      d.from = ray.origin + ray.direction * d.along;
+      d.reach = light.reach(d.from);
+      d.at = intersect_every_step ? section.intersected(d.t, d.reach) : section.at(d.t);
+      d.weight = to_rgb<F>(placed.weights(d.t, d.at));
+      if (share) d.weight = d.weight * select(d.asked, share->boost(), F(0));
+      return d;
+    }
+
+    /// What arrives of the light that is sent to a sample and on to the camera, 0 to 1.
+    template <AnswersVisibility<F> W>
+    Rgb<F> visibility(const Sample& d, const W& world) const noexcept {
+      Rgb<F> visible = world.transmit(d.from, toward, d.reach, light_index, d.asked);
+      if (ray.filtered)
+        visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, d.asked);
+      return visible;
+    }
+
+    WatchedSample<F> watched(std::uint32_t index, const Sample& d,
+                             const Rgb<F>& visible) const noexcept {
+      const F pdf = placed.pdf(d.t, d.at);
+      return {index,   d.along, share ? pdf / share->boost() : pdf, d.weight * ray.dimmed,
+              visible, d.asked};
+    }
+  };
+
+  /// Weights of samples, and of what of them arrives, summed in halves.
+  template <Real F>
+  struct HalvedWeights {
+    int half;  ///< that all samples belong to, or −1 where halves take turns
+    std::array<Rgb<F>, 2> occluded{}, unoccluded{};
+
+    template <class Sample>
+    void add(const Sample& d, const Rgb<F>& visible) noexcept {
+      const Rgb<F> none, sent = select(d.asked, d.weight, none), arrived = d.weight * visible;
+      if (half >= 0) {
+        occluded[half] += arrived, unoccluded[half] += sent;
+      } else {
+        occluded[0] += select(d.second, none, arrived);
+        occluded[1] += select(d.second, arrived, none);
+        unoccluded[0] += select(d.second, none, sent);
+        unoccluded[1] += select(d.second, sent, none);
+      }
+    }
+
+    /// How many of the samples belong to each half.
+    std::array<std::uint32_t, 2> counts(SampleRange samples) const noexcept {
+      std::array<std::uint32_t, 2> count{};
+      for (std::uint32_t i = 0; i < samples.count; ++i)
+        ++count[std::size_t(half < 0 ? half_of(samples.first + i) : half)];
+      return count;
+    }
   };
 
   /// Room for a sample that will be drawn: zeros would be written for nothing.
@@ -110,6 +169,21 @@ struct Sampled {
       sort_lanes<8>(bits);
     else
       sort_lanes<drawn_ahead>(bits);
+  }
+
+  /// Draws all samples and hands them on, use(i, drawn), a few at a time.
+  template <Real F, class On, class Stream, class Use>
+  static void for_each_drawn(const On& on_ray, SampleRange samples, int half, const Stream& numbers,
+                             Use&& use) noexcept {
+    const std::uint32_t end = samples.first + samples.count;
+    for (std::uint32_t i = samples.first; i < end; i += drawn_ahead) {
+      const int n = int(std::min(std::uint32_t(drawn_ahead), end - i));
+      UInt<F> bits[drawn_ahead];
+      random_bits<F>(numbers, i, n, half, bits);
+      Later<typename On::Sample> drawn[drawn_ahead];
+      for (int k = 0; k < n; ++k) drawn[k].sample = on_ray.draw(bits[k]);
+      for (int k = 0; k < n; ++k) use(i + std::uint32_t(k), drawn[k].sample);
+    }
   }
 
   /// Where light comes from for a camera ray: a disc gives every ray a direction of its own, for
@@ -172,76 +246,34 @@ struct Sampled {
     const Rgb<F> strength = Rgb<F>(strength_along<Space>(medium, light.irradiance)) * ray.dimmed *
                             phase_along<Space>(medium, dot(w, ray.direction));
 
-    const int one_half = halve_by_ray ? half_of(ray.index) : -1;
-    std::array<Rgb<F>, 2> occluded, unoccluded;
+    HalvedWeights<F> weights{halve_by_ray ? half_of(ray.index) : -1};
     std::visit(
         [&](const Placement auto& place) {
           const auto placed =
               place.on(section, carried<channels, Space>(medium, light, ray.dimmed));
-          static_assert(PlacedOn<decltype(placed), decltype(section)>);
-          const auto distances =
-              sampler.stream(share ? stream::light_choice : stream::distance(light_index));
-          using Sample = Drawn<F, typename decltype(section)::Point>;
-          const auto draw = [&](UInt<F> bits) {
-            Sample d;
-            d.second = is_odd<F>(bits);
-            d.asked = ray.active;
-            F u = unit_interval<F>(bits);
-            if (share) {
-              d.asked = d.asked & share->takes(u);
-              if (!any(d.asked)) return d;
-            }
-            d.t = placed.sample(u);
-            d.along = ray.t_enter + d.t;
-            d.from = ray.origin + ray.direction * d.along;
-            d.reach = light.reach(d.from);
-            d.at = intersect_every_step ? section.intersected(d.t, d.reach) : section.at(d.t);
-            d.weight = to_rgb<F>(placed.weights(d.t, d.at));
-            return d;
-          };
-          const auto trace = [&](std::uint32_t i, Sample& d) {
-            if (share) {
-              if (!any(d.asked)) return;
-              d.weight = d.weight * select(d.asked, share->boost(), F(0));
-            }
-            Rgb<F> visible = world.transmit(d.from, w, d.reach, light_index, d.asked);
-            if (ray.filtered)
-              visible *= world.transmit(ray.origin, ray.direction, d.along, no_light, d.asked);
-            const F pdf = placed.pdf(d.t, d.at);
-            watch(WatchedSample<F>{i, d.along, share ? pdf / share->boost() : pdf,
-                                   d.weight * ray.dimmed, visible, d.asked});
-            const Rgb<F> none, sent = select(d.asked, d.weight, none), arrived = d.weight * visible;
-            if (one_half >= 0) {
-              occluded[one_half] += arrived, unoccluded[one_half] += sent;
-            } else {
-              occluded[0] += select(d.second, none, arrived);
-              occluded[1] += select(d.second, arrived, none);
-              unoccluded[0] += select(d.second, none, sent);
-              unoccluded[1] += select(d.second, sent, none);
-            }
-          };
-          const std::uint32_t end = samples.first + samples.count;
-          for (std::uint32_t i = samples.first; i < end; i += drawn_ahead) {
-            const int n = int(std::min(std::uint32_t(drawn_ahead), end - i));
-            UInt<F> bits[drawn_ahead];
-            random_bits<F>(distances, i, n, one_half, bits);
-            Later<Sample> drawn[drawn_ahead];
-            for (int k = 0; k < n; ++k) drawn[k].sample = draw(bits[k]);
-            for (int k = 0; k < n; ++k) trace(i + std::uint32_t(k), drawn[k].sample);
-          }
+          const OnRay<F, L, decltype(section), std::remove_const_t<decltype(placed)>> on_ray{
+              ray, light, light_index, w, section, placed, share, intersect_every_step};
+          for_each_drawn<F>(
+              on_ray, samples, weights.half,
+              sampler.stream(share ? stream::light_choice : stream::distance(light_index)),
+              [&](std::uint32_t i, const auto& d) {
+                if (share && !any(d.asked)) return;
+                const Rgb<F> visible = on_ray.visibility(d, world);
+                watch(on_ray.watched(i, d, visible));
+                weights.add(d, visible);
+              });
         },
         placement);
 
-    std::array<std::uint32_t, 2> count{};
-    for (std::uint32_t i = 0; i < samples.count; ++i)
-      ++count[std::size_t(one_half < 0 ? half_of(samples.first + i) : one_half)];
+    const auto count = weights.counts(samples);
     const Rgb<F> analytic =
         intersect_every_step ? Rgb<F>() : strength * to_rgb<F>(section.integral);
     std::visit(
         [&](const Form auto& make) {
           for (int half = 0; half < 2; ++half)
-            sums[half] += make(analytic * F(Scalar<F>(count[half])), strength * occluded[half],
-                               strength * unoccluded[half]);
+            sums[half] +=
+                make(analytic * F(Scalar<F>(count[half])), strength * weights.occluded[half],
+                     strength * weights.unoccluded[half]);
         },
         form);
   }
