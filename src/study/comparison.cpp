@@ -16,20 +16,11 @@ namespace {
 /// The seed of a computed reference: far from those of the runs.
 constexpr std::int64_t reference_seed = 0x5eed0000;
 constexpr std::int64_t default_reference_spp = 16384;
-/// Above this many triangles the exact shadows, which look at every one, take longer than samples.
-constexpr std::size_t most_exact_triangles = 4096;
-
-std::size_t triangle_count(const Scene& scene) {
-  std::size_t count = 0;
-  for (const Object& object : scene.objects)
-    if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) count += mesh->triangles.size();
-  return count;
-}
 
 /// Whether the closed form knows this scene and the pictures are point-sampled at pixel centres, as
 /// its is.
-bool has_exact_reference(const Scene& scene, Renderer& renderer, RenderSettings settings) {
-  if (settings.samples_per_ray != 0 || triangle_count(scene) > most_exact_triangles) return false;
+bool has_exact_reference(const Renderer& renderer, RenderSettings settings) {
+  if (settings.samples_per_ray != 0) return false;
   settings.estimator = "closed_form";
   try {
     renderer.check(settings);
@@ -76,7 +67,7 @@ void make_reference(const Scene& scene, const ComparisonSettings& settings, Rend
   RenderSettings reference = scene.render;
   reference.light_selection = LightSelection::all;
   spread_rays(reference);
-  if (settings.reference_spp == 0 && has_exact_reference(scene, renderer, reference)) {
+  if (settings.reference_spp == 0 && has_exact_reference(renderer, reference)) {
     reference.estimator = "closed_form";
     reference.spp = 1;
     comparison.reference_source = "the exact closed form, without noise";
