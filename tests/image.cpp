@@ -14,6 +14,7 @@
 #include <limits>
 #include <random>
 
+#include <numeric>
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/decoders.h"
@@ -188,7 +189,31 @@ TEST(Exr, places_a_crop_in_the_whole) {
   const Imf::InputFile file((folder / "a.exr").c_str());
   EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({100, 200}, {129, 239}));
   EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {639, 479}));
-  EXPECT_EQ(read_image(folder / "a.exr").pixels, image.pixels);
+  const Image whole = read_image(folder / "a.exr");
+  ASSERT_EQ(std::pair(whole.width, whole.height), std::pair(640, 480));
+  EXPECT_EQ(whole.at(100, 200, 0), image.at(0, 0, 0));
+  EXPECT_EQ(whole.at(129, 239, 2), image.at(29, 39, 2));
+  EXPECT_EQ(std::accumulate(whole.pixels.begin(), whole.pixels.end(), 0.),
+            std::accumulate(image.pixels.begin(), image.pixels.end(), 0.));
+  EXPECT_THAT(error_of([&] { read_radiance(folder / "a.exr"); }),
+              EndsWith("it is a crop of its picture; accepted: a whole one"));
+}
+
+TEST(Exr, is_read_without_what_lies_beyond_its_picture) {
+  const test::Folder folder;
+  const Image image = noise(30, 40);
+  Picture picture = picture_of(image);
+  picture.crop = Crop{-5, -7, 20, 28};
+  const Image depth(30, 40, 1);
+  picture.layers.push_back(layer_of("depth", {"Z"}, depth, Storage::single));
+  write_exr(folder / "a.exr", picture, ExrType::single);
+  for (const Image& inside : {read_image(folder / "a.exr"), *read_radiance(folder / "a.exr")}) {
+    ASSERT_EQ(std::pair(inside.width, inside.height), std::pair(20, 28));
+    for (int y = 0; y < 28; ++y)
+      for (int x = 0; x < 20; ++x)
+        for (int c = 0; c < 3; ++c) ASSERT_EQ(inside.at(x, y, c), image.at(x + 5, y + 7, c));
+  }
+  EXPECT_EQ(read_numbers(folder / "a.exr").image.width, 20);
 }
 
 TEST(Exr, keeps_metadata) {

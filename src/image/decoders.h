@@ -34,6 +34,9 @@ Image decode_pfm(const Encoded& encoded);
 Image decode_png(const Encoded& encoded);
 Image decode_hdr(const Encoded& encoded);  ///< Radiance
 
+/// Whether the file has all pixels of its picture, no crop of them.
+bool exr_is_whole(const Encoded& encoded);
+
 /// Of one channel, without any colour space; as `read_numbers`.
 Image decode_exr_channel(const Encoded& encoded, const std::string& channel);
 Image decode_pfm_numbers(const Encoded& encoded);

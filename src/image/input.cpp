@@ -57,6 +57,8 @@ Numbers read_numbers(const std::filesystem::path& path, const std::string& chann
   if (encoded.starts_with("Pf")) return {decode_pfm_numbers(encoded)};
   if (encoded.is_png()) return {decode_png_numbers(encoded), true};
   fail_to_decode(encoded, "it is no picture of numbers; accepted: EXR, PFM and PNG of one channel");
+  if (is_exr(encoded) && !exr_is_whole(encoded))
+    fail_to_decode(encoded, "it is a crop of its picture; accepted: a whole one");
 }
 
 Picture read_picture(const std::filesystem::path& path) {

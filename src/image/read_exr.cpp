@@ -125,12 +125,34 @@ void read_pixels(Imf::InputFile& file, const Imf::FrameBuffer& frame) {
   file.readPixels(window.min.y, window.max.y);
 }
 
+/// What the whole picture shows of an image that fills this window of it: zeros where there is none
+/// (a crop), and nothing of what lies beyond (overscan).
+Image whole_of(const Encoded& encoded, Image image, const Imath::Box2i& window,
+               const Imath::Box2i& full) {
+  if (window == full) return image;
+  const std::int64_t width = std::int64_t(full.max.x) - full.min.x + 1;
+  const std::int64_t height = std::int64_t(full.max.y) - full.min.y + 1;
+  check_size(encoded, width, height);
+  Image whole(int(width), int(height), image.channels);
+  const int x0 = std::max(window.min.x, full.min.x), x1 = std::min(window.max.x, full.max.x);
+  const int y0 = std::max(window.min.y, full.min.y), y1 = std::min(window.max.y, full.max.y);
+  const auto channels = std::size_t(image.channels);
+  for (int y = y0; y <= y1 && x0 <= x1; ++y)
+    std::ranges::copy(
+        image.row(y - window.min.y)
+            .subspan(std::size_t(x0 - window.min.x) * channels,
+                     std::size_t(x1 - x0 + 1) * channels),
+        whole.row(y - full.min.y).subspan(std::size_t(x0 - full.min.x) * channels).begin());
+  return whole;
+}
+
 Image read_channels(const Encoded& encoded, Imf::InputFile& file,
                     const std::vector<std::string>& names) {
   Imf::FrameBuffer frame;
-  Image image = image_of(encoded, file.header(), names, frame);
+  const Imf::Header& header = file.header();
+  Image image = image_of(encoded, header, names, frame);
   read_pixels(file, frame);
-  return image;
+  return whole_of(encoded, std::move(image), header.dataWindow(), header.displayWindow());
 }
 
 Storage storage_of(Imf::PixelType type) {
@@ -189,6 +211,13 @@ Image decode_exr(const Encoded& encoded, const std::string& layer) {
     Image colour(image.width, image.height);
     for (std::size_t i = 0; i < colour.pixels.size(); ++i) colour.pixels[i] = image.pixels[i / 3];
     return colour;
+  });
+}
+
+bool exr_is_whole(const Encoded& encoded) {
+  return with_file(encoded, [](Imf::InputFile& file) {
+    const Imath::Box2i window = file.header().dataWindow(), full = file.header().displayWindow();
+    return window.intersects(full.min) && window.intersects(full.max);
   });
 }
 
