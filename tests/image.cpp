@@ -369,6 +369,17 @@ TEST(Exr, of_luminance_is_grey) {
   const test::Folder folder;
   Image grey(3, 2, 1);
   for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = 0.25F * float(i);
+TEST(Png, of_8_bit_is_laid_over_black_as_one_of_16_bit) {
+  const test::Folder folder;
+  for (int alpha = 5; alpha < 256; alpha += 50) {
+    const std::uint8_t codes[] = {255, 100, 3, std::uint8_t(alpha)};
+    write_pixel(PNG_FORMAT_RGBA, codes, folder / "a.png");
+    const Image image = read_image(folder / "a.png");
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(image.at(0, 0, c), linear_of_srgb[codes[c]] * float(alpha) / 255, 1e-6) << alpha;
+  }
+}
+
   Picture picture;
   picture.width = 3, picture.height = 2;
   picture.layers.push_back(layer_of("", {"Y"}, grey, Storage::single));

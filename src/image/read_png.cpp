@@ -126,9 +126,11 @@ std::vector<png_bytep> rows_of(std::vector<Code>& codes, std::size_t codes_a_row
   return rows;
 }
 
-/// A picture of 16 bit codes. Libpng's own way to linear light takes sRGB for a power, which leaves
-/// a quarter of what is dark.
-Image wide_picture(const Encoded& encoded) {
+}  // namespace
+
+/// By way of 16 bit codes, whatever the file has: libpng's own way to linear light takes sRGB for a
+/// power, which leaves a quarter of what is dark, and rounds what it has laid over black to codes.
+Image decode_png(const Encoded& encoded) {
   Source source{encoded.bytes, ""};
   Decoder decoder(source);
   const auto [width, height] = read_header(encoded, source, decoder);
@@ -141,36 +143,6 @@ Image wide_picture(const Encoded& encoded) {
     const std::size_t pixel = i / 3 * 4;
     image.pixels[i] = linear[codes[pixel + i % 3]] * (float(codes[pixel + 3]) / 65535.0F);
   }
-  return image;
-}
-
-}  // namespace
-
-Image decode_png(const Encoded& encoded) {
-  Source source{encoded.bytes, ""};
-  Decoder decoder(source);
-  if (!decoder.read_info()) fail_to_decode(encoded, source.error);
-  if (png_get_bit_depth(decoder.png, decoder.info) == 16) return wide_picture(encoded);
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&header, encoded.bytes.data(), encoded.bytes.size()) == 0)
-    fail_to_decode(encoded, header.message);
-  header.format = PNG_FORMAT_RGB;
-  const auto width = header.width;
-  const auto height = header.height;
-  try {
-    check_size(encoded, width, height);
-  } catch (...) {
-    png_image_free(&header);
-    throw;
-  }
-
-  Image image(int(width), int(height), 3);
-  const png_color black{0, 0, 0};
-  std::vector<std::uint8_t> codes(image.pixels.size());
-  if (png_image_finish_read(&header, &black, codes.data(), 0, nullptr) == 0)
-    fail_to_decode(encoded, header.message);
-  for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i] = linear_of_srgb[codes[i]];
   return image;
 }
 
