@@ -4,17 +4,21 @@
 #include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <png.h>
 #include <signal.h>
 #include <sys/resource.h>
 
 #include <cmath>
+#include <cstdio>  // jpeglib.h wants it first
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <random>
 
-#include <numeric>
+#include <jpeglib.h>
+
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/decoders.h"
@@ -365,10 +369,6 @@ TEST(Png, of_numbers_has_no_transparent_grey) {
   EXPECT_EQ(read_image(path).at(63, 63, 2), linear_of_srgb[7]);
 }
 
-TEST(Exr, of_luminance_is_grey) {
-  const test::Folder folder;
-  Image grey(3, 2, 1);
-  for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = 0.25F * float(i);
 TEST(Png, of_8_bit_is_laid_over_black_as_one_of_16_bit) {
   const test::Folder folder;
   for (int alpha = 5; alpha < 256; alpha += 50) {
@@ -380,6 +380,10 @@ TEST(Png, of_8_bit_is_laid_over_black_as_one_of_16_bit) {
   }
 }
 
+TEST(Exr, of_luminance_is_grey) {
+  const test::Folder folder;
+  Image grey(3, 2, 1);
+  for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = 0.25F * float(i);
   Picture picture;
   picture.width = 3, picture.height = 2;
   picture.layers.push_back(layer_of("", {"Y"}, grey, Storage::single));
@@ -441,6 +445,132 @@ TEST(ReadImage, takes_run_lengths_of_radiance_files) {
   ASSERT_TRUE(stbi_write_hdr((folder / "a.hdr").c_str(), 300, 2, 3, image.pixels.data()));
   EXPECT_LT(std::filesystem::file_size(folder / "a.hdr"), 300U * 2 * 4);
   EXPECT_EQ(read_image(folder / "a.hdr").pixels, image.pixels);  // powers of two are exact in RGBE
+}
+
+/// A Radiance file of these header lines and pixels.
+void write_radiance(const std::filesystem::path& path, const std::string& lines, int width,
+                    const std::vector<std::uint8_t>& pixels) {
+  write_text(path, fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n{}\n-Y 1 +X {}\n{}", lines,
+                               width, std::string(pixels.begin(), pixels.end())));
+}
+
+TEST(ReadImage, takes_repeated_pixels_of_old_radiance_files) {
+  const test::Folder folder;
+  // One pixel, again 2 times; another, again 3 + 1 * 256 times, the count in two parts.
+  write_radiance(folder / "a.hdr", "", 3 + 260,
+                 {128, 64, 32, 129, 1, 1, 1, 2, 128, 128, 128, 130, 1, 1, 1, 3, 1, 1, 1, 1});
+  const Image image = read_image(folder / "a.hdr");
+  ASSERT_EQ(image.width, 263);
+  for (int x = 0; x < 3; ++x) EXPECT_EQ(image.at(x, 0, 1), 0.5F);
+  for (int x = 3; x < 263; ++x) ASSERT_EQ(image.at(x, 0, 1), 2.0F) << x;
+  write_radiance(folder / "b.hdr", "", 4, {128, 64, 32, 129, 1, 1, 1, 4});
+  EXPECT_THAT(error_of([&] { read_image(folder / "b.hdr"); }), HasSubstr("does not fit its row"));
+  write_radiance(folder / "c.hdr", "", 4, {1, 1, 1, 4});
+  EXPECT_THAT(error_of([&] { read_image(folder / "c.hdr"); }), HasSubstr("does not fit its row"));
+}
+
+TEST(ReadImage, takes_back_the_exposure_of_radiance_files) {
+  const test::Folder folder;
+  const std::vector<std::uint8_t> pixel = {128, 128, 128, 130};  // 2, 2, 2
+  write_radiance(folder / "a.hdr", "EXPOSURE=4\nEXPOSURE= 0.5 \nCOLORCORR= 1 2 0.25\n", 1, pixel);
+  EXPECT_THAT(read_image(folder / "a.hdr").pixels, ElementsAre(1, 0.5F, 4));
+  for (const char* bad : {"EXPOSURE=bright\n", "EXPOSURE=0\n", "COLORCORR=1 2\n"}) {
+    write_radiance(folder / "b.hdr", bad, 1, pixel);
+    EXPECT_THAT(error_of([&] { read_image(folder / "b.hdr"); }), HasSubstr("above 0")) << bad;
+  }
+}
+
+/// A JPEG file whose EXIF data say how it is turned, little-endian or big.
+void write_turned(const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb,
+                  int width, int height, int orientation, bool little) {
+  ASSERT_TRUE(stbi_write_jpg(path.c_str(), width, height, 3, rgb.data(), 100));
+  const std::string jpeg = read_text(path);
+  const auto number = [&](std::size_t bytes, unsigned value) {
+    std::string text(bytes, '\0');
+    for (std::size_t i = 0; i < bytes; ++i)
+      text[little ? i : bytes - 1 - i] = char(value >> (8 * i) & 255);
+    return text;
+  };
+  // A resolution comes first, so that the entry is looked for.
+  const std::string tiff = (little ? "II" : "MM") + number(2, 42) + number(4, 8) + number(2, 2) +
+                           number(2, 0x128) + number(2, 3) + number(4, 1) + number(2, 2) +
+                           number(2, 0) + number(2, 0x112) + number(2, 3) + number(4, 1) +
+                           number(2, unsigned(orientation)) + number(2, 0) + number(4, 0);
+  const std::string exif = std::string("Exif\0\0", 6) + tiff;
+  const std::size_t size = exif.size() + 2;
+  write_text(path, jpeg.substr(0, 2) + "\xff\xe1" + char(size >> 8) + char(size & 255) + exif +
+                       jpeg.substr(2));
+}
+
+TEST(ReadImage, turns_photographs_as_they_say) {
+  const test::Folder folder;
+  // What is to be seen: 32 x 16 pixels, dark on the left, and white in the upper right quarter.
+  const auto seen = [](int x, int y) { return x < 16 ? 20 : y < 8 ? 255 : 120; };
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    // Where row and column 0 of the file are seen, as EXIF defines it.
+    const int width = orientation < 5 ? 32 : 16, height = 48 - width;
+    std::vector<std::uint8_t> rgb;
+    for (int row = 0; row < height; ++row)
+      for (int column = 0; column < width; ++column) {
+        const int right = 31 - (orientation < 5 ? column : row);
+        const int down = 15 - (orientation < 5 ? row : column);
+        const bool from_right =
+            orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
+        const bool from_below =
+            orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
+        const int x = from_right ? right : 31 - right, y = from_below ? down : 15 - down;
+        rgb.insert(rgb.end(), 3, std::uint8_t(seen(x, y)));
+      }
+    write_turned(folder / "a.jpg", rgb, width, height, orientation, orientation % 2 == 0);
+    const Image image = read_image(folder / "a.jpg");
+    ASSERT_EQ(std::pair(image.width, image.height), std::pair(32, 16)) << orientation;
+    for (const int x : {3, 28})
+      for (const int y : {3, 12})
+        EXPECT_NEAR(image.at(x, y, 0), linear_of_srgb[std::size_t(seen(x, y))], 0.02)
+            << orientation << " at " << x << ',' << y;
+  }
+  std::vector<std::uint8_t> grey(3 * 16 * 8, 120);
+  write_turned(folder / "b.jpg", grey, 16, 8, 77, true);  // no orientation
+  EXPECT_EQ(read_image(folder / "b.jpg").width, 16);
+}
+
+/// A JPEG file of 8 x 8 pixels of four inks, with the mark of Adobe's programs or without.
+void write_inks(const std::filesystem::path& path, std::array<JSAMPLE, 4> codes, bool adobe) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  jpeg_error_mgr errors{};
+  jpeg_compress_struct state{};
+  state.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&state);
+  jpeg_stdio_dest(&state, file);
+  state.image_width = state.image_height = 8;
+  state.input_components = 4;
+  state.in_color_space = JCS_CMYK;
+  jpeg_set_defaults(&state);
+  jpeg_set_quality(&state, 100, TRUE);
+  state.write_Adobe_marker = adobe ? TRUE : FALSE;
+  jpeg_start_compress(&state, TRUE);
+  std::array<JSAMPLE, 32> pixels{};
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = codes[i % 4];
+  for (JSAMPROW row = pixels.data(); state.next_scanline < 8;)
+    jpeg_write_scanlines(&state, &row, 1);
+  jpeg_finish_compress(&state);
+  jpeg_destroy_compress(&state);
+  std::fclose(file);
+}
+
+TEST(ReadImage, takes_pictures_in_four_inks) {
+  const test::Folder folder;
+  const std::array<JSAMPLE, 4> codes = {200, 100, 255, 128};
+  for (const bool adobe : {true, false}) {
+    write_inks(folder / "a.jpg", codes, adobe);
+    const Image image = read_image(folder / "a.jpg");
+    ASSERT_EQ(image.width, 8);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto light = [&](std::size_t i) { return adobe ? codes[i] : 255 - codes[i]; };
+      const int code = (light(c) * light(3) + 127) / 255;
+      EXPECT_NEAR(image.at(3, 3, int(c)), linear_of_srgb[std::size_t(code)], 0.01) << c;
+    }
+  }
 }
 
 TEST(ReadImage, names_the_file_and_the_reason) {

@@ -52,6 +52,7 @@ struct Codes {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;  ///< four bytes a pixel, row 0 on top
+  int orientation = 1;  ///< EXIF's: how who shows it turns or mirrors it, 1: not at all; up to 8
 };
 
 /// Any of the three below. `accepted` is what an error says that the caller takes.

@@ -10,7 +10,8 @@ namespace airlight {
 
 /// Reads a picture as linear light. The format is told by the file's content: EXR, PFM, PNG, HDR
 /// (Radiance), JPG, BMP or TGA. sRGB codes are decoded; grey becomes RGB; what is transparent in a
-/// PNG lies over black.
+/// PNG lies over black; a JPG is turned as its EXIF data say; the exposure that an HDR file tells
+/// is taken back.
 ///
 /// `layer` names a layer of an EXR file, "" its beauty; other formats have the beauty alone. A
 /// layer with R, G and B gives these, any other all its channels in alphabetical order (X, Y, Z).

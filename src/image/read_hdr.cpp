@@ -1,5 +1,9 @@
 // Radiance pictures: G. Ward, "Real Pixels", Graphics Gems II, 1991. stb_image reads them too, but
 // a truncated file keeps its 2022 version busy for ever.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -67,15 +71,59 @@ void read_runs(const Encoded& encoded, Source& source, std::span<std::uint8_t> r
   }
 }
 
+/// A row without components of their own: pixels, each 1, 1, 1, n of which says that the one before
+/// comes n times more; such pixels in a row give n digit by digit, the lowest first.
+void read_pixels(const Encoded& encoded, Source& source, std::span<std::uint8_t> rgbe) {
+  int shift = 0;
+  for (std::size_t i = 0; i < rgbe.size();) {
+    const auto pixel = source.take(4);
+    const auto code = [&](std::size_t c) { return std::to_integer<std::uint8_t>(pixel[c]); };
+    if (code(0) != 1 || code(1) != 1 || code(2) != 1) {
+      for (std::size_t c = 0; c < 4; ++c) rgbe[i++] = code(c);
+      shift = 0;
+      continue;
+    }
+    const std::size_t count = 4 * (std::size_t(code(3)) << shift);
+    if (i == 0 || shift > 16 || count > rgbe.size() - i)
+      fail_to_decode(encoded, "a run of equal values does not fit its row");
+    for (const std::size_t end = i + count; i < end; ++i) rgbe[i] = rgbe[i - 4];
+    shift += 8;
+  }
+}
+
+/// The factors of a line such as "EXPOSURE=2", by which its writer multiplied all pixels: one for
+/// all colours, or one for each.
+std::array<double, 3> factors_of(const Encoded& encoded, std::string_view line, int count) {
+  std::array<double, 3> factors{};
+  std::string_view rest = line.substr(line.find('=') + 1);
+  for (int i = 0; i < count; ++i) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    double& factor = factors[std::size_t(i)];
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), factor);
+    if (error != std::errc() || !(factor > 0) || !std::isfinite(factor) ||
+        !std::isfinite(1 / factor))
+      fail_to_decode(encoded, fmt::format("it has {}; accepted: {} above 0", line,
+                                          count == 1 ? "a number" : "three numbers"));
+    rest.remove_prefix(std::size_t(end - rest.data()));
+  }
+  if (count == 1) factors.fill(factors[0]);
+  return factors;
+}
+
 }  // namespace
 
 Image decode_hdr(const Encoded& encoded) {
   Source source(encoded);
-  std::string line = source.line();
-  while (!line.empty()) {
+  std::array<double, 3> multiplied = {1, 1, 1};  // lines count all together
+  const auto multiply = [&](std::string_view line, int count) {
+    const std::array<double, 3> factors = factors_of(encoded, line, count);
+    for (std::size_t c = 0; c < 3; ++c) multiplied[c] *= factors[c];
+  };
+  for (std::string line = source.line(); !line.empty(); line = source.line()) {
     if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
       fail_to_decode(encoded, "it has " + line + "; accepted: FORMAT=32-bit_rle_rgbe");
-    line = source.line();
+    if (line.starts_with("EXPOSURE=")) multiply(line, 1);
+    if (line.starts_with("COLORCORR=")) multiply(line, 3);
   }
   int width = 0;
   int height = 0;
@@ -91,15 +139,16 @@ Image decode_hdr(const Encoded& encoded) {
       for (std::size_t component = 0; component < 4; ++component)
         read_runs(encoded, source, rgbe, component);
     } else {
-      const auto flat = source.take(rgbe.size());
-      for (std::size_t i = 0; i < rgbe.size(); ++i)
-        rgbe[i] = std::to_integer<std::uint8_t>(flat[i]);
+      read_pixels(encoded, source, rgbe);
     }
     for (int x = 0; x < width; ++x) {
       const std::uint8_t* pixel = &rgbe[std::size_t(x) * 4];
       for (int c = 0; c < 3;
            ++c)  // the common exponent is biased by 128, the mantissas count 1/256
-        image.at(x, y, c) = pixel[3] == 0 ? 0 : std::ldexp(float(pixel[c]), pixel[3] - 136);
+        image.at(x, y, c) =
+            pixel[3] == 0
+                ? 0
+                : float(std::ldexp(double(pixel[c]), pixel[3] - 136) / multiplied[std::size_t(c)]);
     }
   }
   return image;
