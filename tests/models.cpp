@@ -111,7 +111,7 @@ TEST_F(Obj, makes_an_object_of_each_material) {
   write_text(
       scratch_ / "a.mtl",
       "newmtl red\nKd 0.8 0.1 0.2\nnewmtl glass\nKd 1 1 1\nd 0.25\nTf 0.2 0.9 0.4\nnewmtl unused\n"
-      "map_Kd nowhere.png\nnewmtl thin\nTr 0.25\n");
+      "map_Kd nowhere.png\nnewmtl thin\nKd 1\nTr 0.25\n");
   const Model model =
       load("a.obj",
            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 3\nusemtl red\nf 1 2 3\n"
@@ -194,8 +194,71 @@ TEST_F(Obj, takes_the_numbers_of_materials_as_they_are_meant_or_says_what_is_wro
   };
   EXPECT_EQ(material_of("Kd 0.25\n", "").albedo, Rgb<double>(0.25));
   EXPECT_EQ(material_of("\tKd  +.5  5e-1 0.5 # grey\nd 0.5\n", "").albedo, Rgb<double>(0.5));
-  EXPECT_EQ(material_of("d 7\n", "a.mtl:2: \"d 7\" leaves [0, 1]").opacity, 1);
+  EXPECT_EQ(material_of("d 7\nKd 1\n", "a.mtl:2: \"d 7\" leaves [0, 1]").opacity, 1);
   EXPECT_EQ(material_of("Kd 2 -1 1\nd -1\n", "(2 such lines in all)").albedo, Rgb<double>(1, 0, 1));
+}
+
+TEST_F(Obj, gives_materials_without_a_colour_that_of_their_picture_or_grey) {
+  picture("red.tga", {255, 0, 0, 255});
+  write_text(
+      scratch_ / "a.mtl",
+      "newmtl m\nillum 2\nnewmtl unused\nillum 2\nnewmtl n\nmap_Kd red.tga\nnewmtl o\nKd 0 0 0\n");
+  const Model model = load("a.obj",
+                           "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
+                           "usemtl n\nf 1 2 3\nusemtl o\nf 1 2 3\n");
+  ASSERT_EQ(model.objects.size(), 3U);
+  EXPECT_EQ(model.objects[0].material.albedo, Rgb<double>(0.5));
+  EXPECT_EQ(model.objects[1].material.albedo, Rgb<double>(1));
+  EXPECT_EQ(model.objects[2].material.albedo, Rgb<double>(0));
+  EXPECT_THAT(model.remarks, ElementsAre("materials without a colour (Kd) are grey (m)"));
+}
+
+TEST_F(Obj, keeps_blanks_in_names) {
+  write_text(
+      scratch_ / "my colours.mtl",
+      "newmtl light red\nKd 1 0 0\nnewmtl light blue \nKd 0 0 1\nnewmtl Material #25\nKd 0 1 0\n");
+  write_text(scratch_ / "grey.mtl", "newmtl grey # as walls are\nKd 0.25\n");
+  const std::string faces =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl light blue\nf 1 2 3\nusemtl\tMaterial #25  \r\nf 1 2 3\n"
+      "usemtl grey # 2\nf 1 2 3\n";
+  for (const char* libraries : {"mtllib my colours.mtl\nmtllib grey.mtl\n",
+                                "mtllib my\\ colours.mtl # both\nmtllib .\\grey.mtl\n"}) {
+    const Model model = load("a.obj", libraries + faces);
+    EXPECT_THAT(model.remarks, ElementsAre()) << libraries;
+    ASSERT_EQ(model.objects.size(), 3U);
+    EXPECT_EQ(model.objects[0].name, "light blue");
+    EXPECT_EQ(model.objects[0].material.albedo, Rgb<double>(0, 0, 1));
+    EXPECT_EQ(model.objects[1].name, "Material #25");
+    EXPECT_EQ(model.objects[1].material.albedo, Rgb<double>(0, 1, 0));
+    EXPECT_EQ(model.objects[2].name, "grey");
+  }
+}
+
+TEST_F(Obj, reads_all_material_files_of_a_line) {
+  write_text(scratch_ / "a.mtl", "newmtl a\nKd 1 0 0\n");
+  write_text(scratch_ / "b.mtl", "newmtl b\nKd 0 0 1\n");
+  const Model model =
+      load("a.obj", "mtllib a.mtl gone.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl b\nf 1 2 3\n");
+  EXPECT_EQ(model.objects.at(0).material.albedo, Rgb<double>(0, 0, 1));
+  EXPECT_THAT(model.remarks, ElementsAre("gone.mtl is missing"));
+}
+
+TEST_F(Obj, goes_on_after_a_backslash) {
+  const std::string start =
+      "v 0 0 \\\n0\nv 1 0 0\r\nv 0 1 0\nv 1 1 0\n# C:\\models\\\nf 1 2 \\\r\n \\\n4 3\n";
+  const Model model = load("a.obj", start);
+  EXPECT_EQ(mesh_of(model, 0).triangles.size(), 2U);
+  EXPECT_THAT(complaint("b.obj", start + "f 1 2 9\n"), StartsWith("b.obj:10: \"f 1 2 9\" names"));
+  EXPECT_THAT(complaint("c.obj", start + "f 1 2 3 \\"), StartsWith("c.obj:10: "));
+}
+
+TEST_F(Obj, may_begin_with_the_mark_of_utf_8) {
+  const std::string mark = "\xef\xbb\xbf";
+  write_text(scratch_ / "a.mtl", mark + "newmtl m\nKd 1 0 0\n");
+  const Model model =
+      load("a.obj", mark + "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nusemtl m\nf 1 2 3\n");
+  EXPECT_EQ(mesh_of(model, 0).positions.size(), 3U);
+  EXPECT_EQ(model.objects[0].material.albedo, Rgb<double>(1, 0, 0));
 }
 
 TEST_F(Obj, tells_of_faces_that_are_left_out) {

@@ -41,6 +41,10 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   return read_all<std::vector<std::byte>>(path);
 }
 
-std::string read_text(const std::filesystem::path& path) { return read_all<std::string>(path); }
+std::string read_text(const std::filesystem::path& path) {
+  auto text = read_all<std::string>(path);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return text;
+}
 
 }  // namespace airlight

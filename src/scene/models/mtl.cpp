@@ -10,6 +10,7 @@
 #include "image/read_file.h"
 #include "scene/models/decode_together.h"
 #include "scene/models/mtl_text.h"
+#include "scene/models/text_lines.h"
 #include "scene/models/transparent_texels.h"
 
 namespace airlight {
@@ -18,6 +19,11 @@ namespace {
 /// Exporters on Windows write its separators.
 std::string with_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+std::string with_blanks(std::string name) {
+  std::replace(name.begin(), name.end(), joint, ' ');
   return name;
 }
 
@@ -112,20 +118,40 @@ Material convert(const tinyobj::material_t& mtl, int albedo_texture, int opacity
 
 }  // namespace
 
-bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+bool MtlReader::operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
                            std::map<std::string, int>* indices, std::string* warning,
                            std::string* error) {
-  const std::filesystem::path path = folder_ / with_slashes(name);
-  if (!std::filesystem::is_regular_file(path)) {
-    remarks_.push_back(fmt::format("{} is missing", name));
-    return false;
+  const auto is_there = [&](const std::string& name) {
+    return std::filesystem::is_regular_file(folder_ / name);
+  };
+  const std::string whole = with_blanks(names);
+  std::vector<std::string> files = {whole};
+  if (!is_there(whole)) {
+    files.clear();
+    std::string_view rest = whole;
+    for (std::string_view word; !(word = next_word(rest)).empty();) files.emplace_back(word);
+    if (std::ranges::none_of(files, is_there)) files = {whole};
   }
+  bool any = false;
+  for (const std::string& name : files)
+    if (is_there(name)) {
+      read(folder_ / name, *materials, *indices, warning, error);
+      any = true;
+    } else {
+      remarks_.push_back(fmt::format("{} is missing", name));
+    }
+  return any;
+}
+
+void MtlReader::read(const std::filesystem::path& path, std::vector<tinyobj::material_t>& materials,
+                     std::map<std::string, int>& indices, std::string* warning,
+                     std::string* error) {
   const std::string content = read_text(path);
   if (auto remark = check_mtl_numbers(content, path.string()))
     remarks_.push_back(std::move(*remark));
-  std::istringstream text(complete_mtl_numbers(content));
-  tinyobj::LoadMtl(indices, materials, &text, warning, error);
-  return true;
+  std::istringstream text(complete_mtl(content, colourless_));
+  tinyobj::LoadMtl(&indices, &materials, &text, warning, error);
+  for (tinyobj::material_t& material : materials) material.name = with_blanks(material.name);
 }
 
 void place_texture(const tinyobj::material_t& mtl, Mesh& mesh) {

@@ -10,8 +10,9 @@
 
 namespace airlight {
 
-/// Reads the MTL files that an OBJ file beside them names. One that is missing is no error but a
-/// remark; one without its numbers throws Error.
+/// Reads the MTL files that a line of an OBJ file beside them names, with `joint` for blanks: one
+/// with blanks in its name, or else all of several. One that is missing is no error but a remark;
+/// one without its numbers throws Error.
 class MtlReader : public tinyobj::MaterialReader {
  public:
   explicit MtlReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -23,9 +24,15 @@ class MtlReader : public tinyobj::MaterialReader {
   /// What is missing or out of range, a sentence each.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
+  /// The names of the materials that are grey because no line tells their colour.
+  const std::vector<std::string>& colourless() const { return colourless_; }
+
  private:
+  void read(const std::filesystem::path& path, std::vector<tinyobj::material_t>& materials,
+            std::map<std::string, int>& indices, std::string* warning, std::string* error);
+
   std::filesystem::path folder_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_, colourless_;
 };
 
 /// Turns materials as an MTL file describes them into ours, in the same order, and adds their

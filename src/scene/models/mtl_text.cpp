@@ -71,18 +71,34 @@ std::optional<std::string> check_mtl_numbers(std::string_view text, const std::s
   return outside > 1 ? fmt::format("{} ({} such lines in all)", first, outside) : first;
 }
 
-std::string complete_mtl_numbers(std::string_view text) {
-  std::string result;
+std::string complete_mtl(std::string_view text, std::vector<std::string>& colourless) {
+  std::string result, name;
+  bool has_colour = true, has_picture = false;
+  const auto finish_material = [&] {
+    if (has_colour) return;
+    result += has_picture ? "Kd 1 1 1\n" : "Kd 0.5 0.5 0.5\n";
+    if (!has_picture) colourless.push_back(name);
+  };
   for_each_line(text, [&](auto key, auto words, auto line, auto) {
     std::string completed(line);
-    if (is_colour(key)) {
+    if (key == "newmtl") {
+      finish_material();
+      has_colour = has_picture = false;
+      while (!words.empty() && is_blank(words.front())) words.remove_prefix(1);
+      name = words.substr(0, end_of_name(words, 0));
+      completed = "newmtl " + name;
+      std::replace_if(completed.begin() + 7, completed.end(), is_blank, joint);
+    } else if (is_colour(key)) {
       const std::string_view number = next_word(words);
       if (next_word(words).empty()) completed += fmt::format(" {} {}", number, number);
     } else {
       complete_options(completed);
     }
+    has_colour = has_colour || key == "Kd";
+    has_picture = has_picture || key == "map_Kd";
     result += completed + '\n';
   });
+  finish_material();
   return result;
 }
 

@@ -54,6 +54,7 @@ bool is_sound(const Parsed& obj) {
 }
 
 Parsed parse(std::string& text, const std::string& file, MtlReader& reader) {
+  prepare_obj(text);
   check_obj_numbers(text, file);
   Parsed obj;
   TextBuffer buffer(text);
@@ -165,12 +166,19 @@ std::vector<const tinyobj::material_t*> materials_of(const std::vector<Sorter::P
 std::vector<std::string> remarks_on(const std::vector<const tinyobj::material_t*>& materials,
                                     const MtlReader& reader) {
   std::vector<std::string> remarks = reader.remarks();
-  std::vector<std::string> glowing;
-  for (const auto* mtl : materials)
-    if (mtl && (mtl->emission[0] > 0 || mtl->emission[1] > 0 || mtl->emission[2] > 0))
+  std::vector<std::string> glowing, colourless;
+  for (const auto* mtl : materials) {
+    if (!mtl) continue;
+    if (mtl->emission[0] > 0 || mtl->emission[1] > 0 || mtl->emission[2] > 0)
       glowing.push_back(mtl->name);
+    if (std::ranges::find(reader.colourless(), mtl->name) != reader.colourless().end())
+      colourless.push_back(mtl->name);
+  }
   if (std::count(materials.begin(), materials.end(), nullptr) > 0)
     remarks.push_back("surfaces without a material are grey");
+  if (!colourless.empty())
+    remarks.push_back(
+        fmt::format("materials without a colour (Kd) are grey ({})", fmt::join(colourless, ", ")));
   if (!glowing.empty())
     remarks.push_back(
         fmt::format("light given off by surfaces is left out ({})", fmt::join(glowing, ", ")));

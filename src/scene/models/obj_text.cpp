@@ -92,7 +92,59 @@ void check_finite(std::string_view words, const std::string& where, std::string_
   }
 }
 
+/// The end of the line that starts here, or of the text.
+std::size_t line_end(const std::string& text, std::size_t begin) {
+  return std::min(text.find('\n', begin), text.size());
+}
+
+/// Where the backslash stands after which a line goes on in the next; npos if it does not.
+std::size_t mark_of_going_on(const std::string& text, std::size_t begin, std::size_t end) {
+  if (end > begin && text[end - 1] == '\r') --end;
+  return end > begin && end < text.size() && text[end - 1] == '\\' ? end - 1 : text.npos;
+}
+
+/// Joins a line and those in which it goes on. The end of all of them.
+std::size_t join_lines(std::string& text, std::size_t begin, std::size_t end) {
+  std::string joined;
+  std::size_t newlines = 0, from = begin;
+  for (std::size_t mark; (mark = mark_of_going_on(text, from, end)) != text.npos; ++newlines) {
+    joined.append(text, from, mark - from);
+    joined.append(end - mark, ' ');  // backslash, and \r if there is one
+    from = end + 1;
+    end = line_end(text, from);
+  }
+  joined.append(text, from, end - from);
+  joined.append(newlines, '\n');
+  text.replace(begin, joined.size(), joined);
+  return end;
+}
+
+/// Of a file's name, the backslashes of Windows become slashes; one before a blank only keeps it.
+void join_name(std::string& text, std::size_t begin, bool is_file) {
+  while (begin < text.size() && is_blank(text[begin])) ++begin;
+  const std::size_t end = end_of_name(text, begin);
+  for (std::size_t i = begin; i < end; ++i)
+    if (is_blank(text[i]))
+      text[i] = joint;
+    else if (is_file && text[i] == '\\' && !(i + 1 < end && is_blank(text[i + 1])))
+      text[i] = '/';
+}
+
 }  // namespace
+
+void prepare_obj(std::string& text) {
+  for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1) {
+    end = line_end(text, begin);
+    while (begin < end && is_blank(text[begin])) ++begin;
+    const std::string_view line(text.data() + begin, end - begin);
+    if (line.starts_with('v') || line.starts_with('f')) {
+      if (mark_of_going_on(text, begin, end) != text.npos) end = join_lines(text, begin, end);
+    } else if (line.size() > 6 && is_blank(line[6]) &&
+               (line.starts_with("usemtl") || line.starts_with("mtllib"))) {
+      join_name(text, begin + 6, line.starts_with("mtllib"));
+    }
+  }
+}
 
 void check_obj_numbers(std::string_view text, const std::string& file) {
   const char* at = text.data();

@@ -40,6 +40,20 @@ inline std::string shown(std::string_view line) {
   return line.size() > most ? text + "..." : text;
 }
 
+/// Stands for a blank inside a name, where the parser would end it.
+constexpr char joint = '\x1f';
+
+/// The end of a name that goes on to the end of its line, from `begin` on: without blanks behind
+/// it, and without a comment, whose # stands alone ("Material #25" is a name).
+inline std::size_t end_of_name(std::string_view line, std::size_t begin) {
+  std::size_t end = line.find_first_of("\r\n", begin);
+  if (end == line.npos) end = line.size();
+  for (std::size_t i = begin + 1; i < end; ++i)
+    if (line[i] == '#' && is_blank(line[i - 1]) && (i + 1 == end || is_blank(line[i + 1]))) end = i;
+  while (end > begin && is_blank(line[end - 1])) --end;
+  return end;
+}
+
 /// Calls `visit(key, words, line, number)` for each line, which count from 1.
 template <class Visit>
 void for_each_line(std::string_view text, Visit&& visit) {
