@@ -493,6 +493,75 @@ TEST_F(Gltf, understands_alpha_modes_and_transmission) {
   EXPECT_EQ(material(4).albedo, Rgb<double>(1));
 }
 
+TEST_F(Gltf, takes_the_diffuse_colour_of_older_materials) {
+  picture("t.tga", {255, 255, 255, 100});
+  GltfBuilder gltf = square_document();
+  gltf.json["images"] = {{{"uri", "t.tga"}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  json& material = gltf.json["materials"][0];
+  json& gloss = material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  gloss = {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}}, {"diffuseTexture", {{"index", 0}}}};
+  material["alphaMode"] = "BLEND";
+  material["pbrMetallicRoughness"] = {
+      {"baseColorFactor", {1, 0, 0, 1}}};  // for who knows no better
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  gltf.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
+  const Model model = load("a.glb", gltf.glb());
+  EXPECT_EQ(model.objects[0].material.albedo, Rgb<double>(0.1, 0.2, 0.3));
+  EXPECT_EQ(model.objects[0].material.opacity, 0.4);
+  EXPECT_EQ(model.objects[0].material.albedo_texture, 0);
+  EXPECT_THAT(model.remarks, IsEmpty());
+  gloss["diffuseTexture"]["index"] = 1;
+  EXPECT_THAT(complaint("a.glb", gltf.glb()), HasSubstr("diffuseTexture.index: 1; an index"));
+}
+
+TEST_F(Gltf, cuts_out_glass_as_a_whole) {
+  picture("t.tga", {255, 255, 255, 100});
+  GltfBuilder gltf = square_document();
+  gltf.json["images"] = {{{"uri", "t.tga"}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  const json glass = {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}};
+  const auto mask = [&](const char* name, double alpha) -> json {
+    return {{"name", name},
+            {"alphaMode", "MASK"},
+            {"extensions", glass},
+            {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, alpha}}}}};
+  };
+  gltf.json["materials"] = {mask("there", 0.6), mask("gone", 0.4), mask("cut", 1)};
+  gltf.json["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  for (const int i : {1, 2})
+    gltf.node({{"attributes", {{"POSITION", 0}}}, {"mode", 6}, {"material", i}});
+  const Model model = load("a.glb", gltf.glb());
+  ASSERT_EQ(model.objects.size(), 3U);
+  EXPECT_EQ(model.objects[0].material.opacity, 0.25);
+  EXPECT_EQ(model.objects[0].material.tint, Rgb<double>(1, 0.5, 0));
+  EXPECT_EQ(model.objects[1].material.opacity, 0);
+  EXPECT_EQ(model.objects[1].material.tint, Rgb<double>(1));
+  EXPECT_EQ(model.objects[2].material.opacity, 1);
+  EXPECT_EQ(model.objects[2].material.cutoff, 0.5);
+  EXPECT_THAT(model.remarks,
+              ElementsAre("light passes through glass without regard to its textures (cut)"));
+}
+
+TEST_F(Gltf, tells_what_it_leaves_out) {
+  GltfBuilder gltf = square_document();
+  gltf.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_texture_transform"};
+  gltf.json["cameras"] = {
+      {{"type", "orthographic"},
+       {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 10}}}}};
+  gltf.json["nodes"].push_back({{"camera", 0}});
+  gltf.json["materials"] = {{{"name", "lamp"}, {"emissiveFactor", {0, 0, 1}}},
+                            {{"name", "unused"}, {"emissiveFactor", {0, 0, 1}}}};
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  EXPECT_THAT(load("a.glb", gltf.glb()).remarks,
+              ElementsAre("extensions of the file are left out (EXT_mesh_gpu_instancing)",
+                          "light given off by surfaces is left out (lamp)",
+                          "orthographic cameras of the file are left out"));
+  gltf.json["extensionsUsed"] = {1};
+  EXPECT_EQ(complaint("a.glb", gltf.glb()), "a.glb: extensionsUsed[0]: 1; a text");
+}
+
 TEST_F(Gltf, takes_the_camera_and_directional_lights) {
   GltfBuilder gltf = square_document();
   gltf.json["cameras"] = {
@@ -530,7 +599,7 @@ TEST_F(Gltf, refuses_what_is_required_and_not_supported_by_name) {
   gltf.json["extensionsRequired"] = {"KHR_texture_transform", "KHR_draco_mesh_compression"};
   EXPECT_EQ(complaint("a.glb", gltf.glb()),
             "a.glb: extensionsRequired[1]: KHR_draco_mesh_compression is not supported; "
-            "KHR_lights_punctual, "
+            "KHR_lights_punctual, KHR_materials_pbrSpecularGlossiness, "
             "KHR_materials_transmission, KHR_mesh_quantization, KHR_texture_transform");
 }
 

@@ -1,6 +1,7 @@
 #include "scene/models/gltf.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -22,7 +23,11 @@ struct GltfFile {
   explicit GltfFile(const std::filesystem::path& path)
       : document(gltf::read_document(path)),
         materials(gltf::convert_materials(document, textures)),
-        motion(document, remarks) {}
+        motion(document, remarks) {
+    if (!document.extensions_left_out.empty())
+      remarks.push_back(fmt::format("extensions of the file are left out ({})",
+                                    fmt::join(document.extensions_left_out, ", ")));
+  }
 
   /// Everything but the textures, at a time in seconds.
   Model model(double seconds) const {
@@ -35,7 +40,7 @@ struct GltfFile {
     if (model.objects.empty())
       throw Error(fmt::format("{}: no triangles in its scene; a mesh of triangles, strips or fans",
                               document.file));
-    model.camera = gltf::find_camera(document, nodes);
+    model.camera = gltf::find_camera(document, nodes, model.remarks);
     model.lights = gltf::find_lights(document, nodes, model.remarks);
     return model;
   }

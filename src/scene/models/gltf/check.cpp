@@ -18,11 +18,14 @@ constexpr double largest_integer =
 constexpr double largest_int = std::numeric_limits<int>::max();
 
 const std::vector<std::string> supported_extensions = {
-    "KHR_lights_punctual",
-    "KHR_materials_transmission",
-    "KHR_mesh_quantization",
+    "KHR_lights_punctual",        "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission", "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
+
+bool is_supported(const std::string& extension) {
+  return std::ranges::find(supported_extensions, extension) != supported_extensions.end();
+}
 
 /// JSON as an error shows it.
 std::string shown(const Json& value) {
@@ -218,14 +221,16 @@ class Checker {
   }
 
   void extensions() const {
-    const auto list = array(root_, "extensionsRequired");
-    for (std::size_t i = 0; list && i < list->value->size(); ++i) {
-      const Place name = element(*list, i);
-      if (!name.value->is_string()) fail(name.path, shown(*name.value), "a text");
-      if (std::find(supported_extensions.begin(), supported_extensions.end(),
-                    name.value->get<std::string>()) == supported_extensions.end())
-        fail(name.path, fmt::format("{} is not supported", name.value->get<std::string>()),
-             fmt::format("{}", fmt::join(supported_extensions, ", ")));
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+      const auto list = array(root_, key);
+      for (std::size_t i = 0; list && i < list->value->size(); ++i) {
+        const Place name = element(*list, i);
+        if (!name.value->is_string()) fail(name.path, shown(*name.value), "a text");
+        const auto extension = name.value->get<std::string>();
+        if (key == std::string("extensionsRequired") && !is_supported(extension))
+          fail(name.path, fmt::format("{} is not supported", extension),
+               fmt::format("{}", fmt::join(supported_extensions, ", ")));
+      }
     }
   }
 
@@ -315,6 +320,10 @@ class Checker {
       numbers(*pbr, "baseColorFactor", 4, 0, 1);
       if (const auto info = object(*pbr, "baseColorTexture")) texture_info(*info);
     }
+    if (const auto gloss = extension(material, "KHR_materials_pbrSpecularGlossiness")) {
+      numbers(*gloss, "diffuseFactor", 4, 0, 1);
+      if (const auto info = object(*gloss, "diffuseTexture")) texture_info(*info);
+    }
     if (const auto transmission = extension(material, "KHR_materials_transmission"))
       number(*transmission, "transmissionFactor", 0, 1);
   }
@@ -392,6 +401,13 @@ Json parse_json(std::string_view text, const std::string& file) {
 
 void check_document(const Json& document, const std::string& file) {
   Checker(document, file).check();
+}
+
+std::vector<std::string> extensions_left_out(const Json& document) {
+  std::vector<std::string> left_out;
+  for (const Json& name : document.value("extensionsUsed", Json::array()))
+    if (!is_supported(name)) left_out.push_back(name);
+  return left_out;
 }
 
 }  // namespace airlight::gltf

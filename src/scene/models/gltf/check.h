@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace airlight::gltf {
 
@@ -15,5 +16,8 @@ Json parse_json(std::string_view text, const std::string& file);
 /// something. The parser that comes after takes wrong types for absent ones and does not look at
 /// indices. Throws Error that says where.
 void check_document(const Json& document, const std::string& file);
+
+/// The extensions that a checked document uses and nobody here reads.
+std::vector<std::string> extensions_left_out(const Json& document);
 
 }  // namespace airlight::gltf

@@ -6,6 +6,7 @@
 
 #include "error.h"
 #include "image/read_file.h"
+#include "scene/models/gltf/check.h"
 
 namespace airlight::gltf {
 namespace {
@@ -42,6 +43,21 @@ tinygltf::Model parse_structure(Json document, const std::string& file) {
   return model;
 }
 
+/// Takes the diffuse colour of the older kind of materials for the base colour.
+void adopt_diffuse_colours(Json& document) {
+  const auto list = document.find("materials");
+  for (std::size_t i = 0; list != document.end() && i < list->size(); ++i) {
+    Json& material = (*list)[i];
+    const Json extensions = material.value("extensions", Json::object());
+    const auto gloss = extensions.find("KHR_materials_pbrSpecularGlossiness");
+    if (gloss == extensions.end()) continue;
+    Json pbr = Json::object();
+    if (gloss->contains("diffuseFactor")) pbr["baseColorFactor"] = gloss->at("diffuseFactor");
+    if (gloss->contains("diffuseTexture")) pbr["baseColorTexture"] = gloss->at("diffuseTexture");
+    material["pbrMetallicRoughness"] = std::move(pbr);
+  }
+}
+
 }  // namespace
 
 std::span<const std::byte> Document::view(int buffer_view, const std::string& where) const {
@@ -58,8 +74,9 @@ Document read_document(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::vector<std::byte> contents = read_file(path);
   const Chunks chunks = split_chunks(contents, file);
-  const Json json = parse_json(chunks.json, file);
+  Json json = parse_json(chunks.json, file);
   check_document(json, file);
+  adopt_diffuse_colours(json);
   Buffers buffers(json, chunks.binary, path.parent_path(), file);
   return {file,
           path.parent_path(),
@@ -67,6 +84,7 @@ Document read_document(const std::filesystem::path& path) {
           parse_structure(json, file),
           list_images(json),
           json.value("animations", Json::array()),
+          extensions_left_out(json),
           std::move(buffers)};
 }
 

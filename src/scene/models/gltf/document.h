@@ -13,12 +13,13 @@ namespace airlight::gltf {
 /// A glTF file in memory. Its structure has been checked: types are right and indices name
 /// something; what accessors and buffer views claim of their buffers has not.
 struct Document {
-  std::string file;                     ///< stands before every error
-  std::filesystem::path folder;         ///< relative URIs start here
-  std::vector<std::byte> contents;      ///< of the file; the binary chunk is a part of it
-  tinygltf::Model model;                ///< without buffers, images, animations and skins
-  std::vector<tinygltf::Image> images;  ///< only URI and buffer view
-  Json animations;                      ///< a list
+  std::string file;                              ///< stands before every error
+  std::filesystem::path folder;                  ///< relative URIs start here
+  std::vector<std::byte> contents;               ///< of the file; the binary chunk is a part of it
+  tinygltf::Model model;                         ///< without buffers, images, animations and skins
+  std::vector<tinygltf::Image> images;           ///< only URI and buffer view
+  Json animations;                               ///< a list
+  std::vector<std::string> extensions_left_out;  ///< used by it and read by nobody
   Buffers buffers;
 
   /// Bytes of a buffer view. Throws Error, `where` first, if its buffer does not have them.

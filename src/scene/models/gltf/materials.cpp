@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -77,11 +78,26 @@ void place_texture(const tinygltf::TextureInfo& info, GltfMaterial& to) {
   if (transform.Has("texCoord")) to.uv_set = transform.Get("texCoord").GetNumberAsInt();
 }
 
-/// The part of the light that KHR_materials_transmission lets through.
-double transmission(const tinygltf::Material& from) {
+/// Glass, after the alpha of the material.
+void let_through(const tinygltf::Material& from, GltfMaterial& to) {
   const auto found = from.extensions.find("KHR_materials_transmission");
-  if (found == from.extensions.end() || !found->second.Has("transmissionFactor")) return 0;
-  return found->second.Get("transmissionFactor").GetNumberAsDouble();
+  if (found == from.extensions.end() || !found->second.Has("transmissionFactor")) return;
+  const double through = found->second.Get("transmissionFactor").GetNumberAsDouble();
+  if (!(through > 0)) return;
+  Material& material = to.material;
+  to.filters_by_texture = to.has_texture() || found->second.Has("transmissionTexture");
+  if (material.cutoff >= 0 &&
+      material.opacity_texture < 0) {  // alpha cuts out all of it or nothing
+    material.opacity = material.opacity < material.cutoff ? 0 : 1;
+    material.cutoff = -1;
+    if (material.opacity == 0) return;
+  }
+  if (material.cutoff >= 0) {  // what is left of a cut-out can only be opaque
+    to.filters_by_texture = true;
+    return;
+  }
+  material.opacity *= 1 - through;
+  material.tint = material.albedo;
 }
 
 GltfMaterial convert(const tinygltf::Material& from, const std::vector<int>& places,
@@ -105,10 +121,8 @@ GltfMaterial convert(const tinygltf::Material& from, const std::vector<int>& pla
       material.opacity_from_alpha = true;
     }
   }
-  if (const double through = transmission(from); through > 0) {
-    material.opacity *= 1 - through;
-    material.tint = material.albedo;
-  }
+  let_through(from, to);
+  to.glows = std::ranges::any_of(from.emissiveFactor, [](double factor) { return factor > 0; });
   return to;
 }
 

@@ -15,6 +15,9 @@ struct GltfMaterial {
   std::array<float, 6> uv_map{
       1, 0, 0, 0, 1, 0};  ///< (u, v) ↦ (m0 u + m1 v + m2, m3 u + m4 v + m5), v downwards
 
+  bool glows = false;               ///< gives off light, which is left out
+  bool filters_by_texture = false;  ///< lets light through as a texture says, which is left out
+
   bool has_texture() const { return material.albedo_texture >= 0; }
 };
 

@@ -127,12 +127,17 @@ std::vector<PlacedNode> place_nodes(const Document& document, const Poses& poses
   return placed;
 }
 
-std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes) {
+std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes,
+                                  std::vector<std::string>& remarks) {
+  bool saw_others = false;
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Node& node = document.model.nodes[std::size_t(placed.node)];
     if (node.camera < 0) continue;
     const tinygltf::Camera& found = document.model.cameras[std::size_t(node.camera)];
-    if (found.type != "perspective") continue;
+    if (found.type != "perspective") {
+      saw_others = true;
+      continue;
+    }
     const Affine& to_world = placed.to_world;
     if (!std::isfinite(length(to_world.origin)))
       throw Error(fmt::format("{}: nodes[{}]: its camera is infinitely far away; a finite place",
@@ -144,6 +149,7 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
     camera.fov = found.perspective.yfov * (180 / pi);
     return camera;
   }
+  if (saw_others) remarks.push_back("orthographic cameras of the file are left out");
   return std::nullopt;
 }
 

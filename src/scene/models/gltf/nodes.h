@@ -18,8 +18,9 @@ struct PlacedNode {
 /// children, posed as told. Throws Error if a node is its own ancestor or has two parents.
 std::vector<PlacedNode> place_nodes(const Document& document, const Poses& poses);
 
-/// The first perspective camera among the nodes.
-std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes);
+/// The first perspective camera among the nodes. `remarks` learns of others if there is none.
+std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes,
+                                  std::vector<std::string>& remarks);
 
 /// The directional lights among the nodes. What else shines is named in a remark.
 std::vector<Directional> find_lights(const Document& document, const std::vector<PlacedNode>& nodes,

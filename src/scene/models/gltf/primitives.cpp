@@ -1,7 +1,9 @@
 #include "scene/models/gltf/primitives.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -72,6 +74,10 @@ std::array<float, 2> place(const std::array<float, 6>& map, const std::array<flo
   const float u = map[0] * uv[0] + map[1] * uv[1] + map[2];
   const float v = map[3] * uv[0] + map[4] * uv[1] + map[5];
   return {u, 1 - v};  // ours points up
+}
+
+void add_once(const std::string& name, std::vector<std::string>& names) {
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
 }  // namespace
@@ -158,14 +164,22 @@ std::vector<Object> Collector::finish(std::vector<std::string>& remarks) {
   if (saw_skin_) remarks.push_back("skinned meshes stand as they were modelled");
   if (saw_morphs_) remarks.push_back("meshes do not change shape: morph targets are left out");
   std::vector<Object> objects;
+  std::vector<std::string> glowing, filtering;
   for (Part& part : parts_) {
     if (part.mesh.triangles.empty()) continue;
     mend_normals(part.mesh);
     const GltfMaterial& look = materials_[part.material];
-    const bool named = !look.name.empty();
-    objects.push_back({named ? look.name : fmt::format("materials[{}]", part.material),
-                       std::move(part.mesh), look.material});
+    const std::string name =
+        look.name.empty() ? fmt::format("materials[{}]", part.material) : look.name;
+    if (look.glows) add_once(name, glowing);
+    if (look.filters_by_texture) add_once(name, filtering);
+    objects.push_back({name, std::move(part.mesh), look.material});
   }
+  const auto remark = [&](const char* what, const std::vector<std::string>& names) {
+    if (!names.empty()) remarks.push_back(fmt::format("{} ({})", what, fmt::join(names, ", ")));
+  };
+  remark("light given off by surfaces is left out", glowing);
+  remark("light passes through glass without regard to its textures", filtering);
   return objects;
 }
 
