@@ -237,5 +237,17 @@ TEST(PenumbraOfAPoint, is_a_sharp_shadow) {
           << x << "," << y;
 }
 
+TEST(PenumbraOfNothing, is_the_mean_cosine_of_the_disc_s_parts) {
+  for (const double diameter : {7., 60.}) {
+    Scene scene = scene_of(diameter, {ground});
+    scene.media.clear();
+    std::get<Directional>(scene.lights[0]).direction = {0, -1, 0};
+    scene.render.spp = 4096;
+    const Film film = Renderer(scene).render(scene.render).film;
+    const double cosine = (1 + std::cos(diameter * std::acos(-1.) / 360)) / 2;
+    EXPECT_NEAR(film.radiance(3, 5).r, 0.7 * 3 * cosine / std::acos(-1.), 1e-5) << diameter;
+  }
+}
+
 }  // namespace
 }  // namespace airlight

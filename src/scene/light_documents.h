@@ -50,8 +50,11 @@ struct DirectionalDocument : GroupedLight {
           "where the light comes from, seen from above: 0 is north (-z), 90 east (+x)");
     field("elevation", &D::elevation, unit::degree, closed(-90, 90),
           "where the light comes from, above the horizon; 90 is straight down (up is +y)");
-    field("angular_diameter", &D::angular_diameter, unit::degree, Range{0, 90, false, true},
-          "of the light's disc; the sun's is 0.53; 0 is parallel light");
+    field(
+        "angular_diameter", &D::angular_diameter, unit::degree, Range{0, 90, false, true},
+        "of the light's disc; the sun's is 0.53; 0 is parallel light. Each part of a disc gives "
+        "its part of the irradiance to what faces that part; a flat surface that faces the middle "
+        "of a wide disc gets less: a thousandth at 7 degrees, 7 % at 60");
     GroupedLight::describe(field);
   }
 

@@ -5,8 +5,9 @@ namespace airlight::inline AIRLIGHT_ISA {
 
 /// Light from far away: parallel, or from a disc of sky such as the sun's.
 struct Directional {
-  Rgb<double> irradiance{1, 1,
-                         1};  ///< on a surface that faces the light, outside the medium  [W/m2]
+  /// On a surface that faces the light, outside the medium: of a disc, summed over its parts, each
+  /// on a surface that faces that part.  [W/m2]
+  Rgb<double> irradiance{1, 1, 1};
   Vec3<double> direction{0, -1, 0};  ///< of travel, unit length
   double angular_diameter = 0;       ///< of the disc; 0 is parallel light  [degrees]
 
