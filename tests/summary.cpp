@@ -96,7 +96,11 @@ TEST(Summary, of_a_picture_warns_of_fog_without_light) {
   };
   const std::string lid = "objects.0.min=[-2,1,-3]", to = "objects.0.max=[2,1.1,3]";
   EXPECT_THAT(warnings({}), ::testing::IsEmpty());
-  EXPECT_THAT(warnings({lid, to}), Contains(StartsWith("no light reaches the fog")));
+  const std::string no_light = "no light reaches the fog in the picture: ";
+  const std::string itself = "it is out of view or too thick";
+  EXPECT_THAT(warnings({lid, to}), Contains(no_light + "objects shadow all of it, or " + itself));
+  EXPECT_THAT(warnings({"objects=[]", "camera.target=[0,0,9]", "camera.position=[0,0,3]"}),
+              Contains(no_light + itself));
   EXPECT_THAT(warnings({lid, to, "media.0.emission=1"}), ::testing::IsEmpty());
   EXPECT_THAT(warnings({lid, to, "lights.0.irradiance=0"}), ::testing::IsEmpty())
       << "which is told before";
@@ -104,7 +108,7 @@ TEST(Summary, of_a_picture_warns_of_fog_without_light) {
       "lights=[{type='collimated', irradiance=1, position=[9,2,0], direction=[0,-1,0], "
       "cross_section={type='circle', radius=0.1}}]",
       "objects=[]"};
-  EXPECT_THAT(warnings(beam), Contains(HasSubstr("beams miss it")));
+  EXPECT_THAT(warnings(beam), Contains(no_light + "beams miss it, or " + itself));
   const Scene dark = parse_scene(room, "room", {lid, to});
   RenderControl at_once;
   at_once.time_limit = 1e-9;

@@ -272,10 +272,17 @@ std::vector<std::string> warnings_after(const Scene& scene, const Film& film) {
   for (int group = 0; group < int(film.groups.size()); ++group)
     for (const PixelSums& pixel : film.pixels(group))
       if (mean_estimate(pixel).radiance() != Rgb<double>()) return {};
-  const bool beams = std::ranges::any_of(
-      scene.lights, [](const Lights& light) { return std::holds_alternative<Collimated>(light); });
-  return {fmt::format("no light reaches the fog in the picture: {}objects shadow all of it",
-                      beams ? "beams miss it, or their images or " : "")};
+  bool beams = false, images = false;
+  for (const Lights& light : scene.lights)
+    if (const auto* beam = std::get_if<Collimated>(&light))
+      beams = true, images = images || beam->image >= 0;
+  std::vector<std::string> shades;
+  if (images) shades.push_back("images of beams");
+  if (!scene.objects.empty()) shades.push_back("objects");
+  return {
+      fmt::format("no light reaches the fog in the picture: {}{}{}it is out of view or too thick",
+                  beams ? "beams miss it, or " : "", fmt::join(shades, " or "),
+                  shades.empty() ? "" : " shadow all of it, or ")};
 }
 
 Summary summarise(const Scene& scene) {
