@@ -125,6 +125,23 @@ TEST(Summary, of_fog_without_an_end_warns_of_what_is_in_view) {
               Contains(HasSubstr("100 m of it between the camera and its target")));
 }
 
+TEST(Summary, of_fog_that_glows_says_that_it_is_not_dark_and_may_be_too_bright) {
+  const auto warnings = [](std::vector<Override> changes) {
+    changes.emplace_back("lights=[]");
+    return summary_with(changes).warnings;
+  };
+  const auto dark = StartsWith("no light: the fog");
+  const auto bright = HasSubstr("bright without end");
+  EXPECT_THAT(warnings({}), Contains(dark));
+  EXPECT_THAT(warnings({"media.0.emission=[0,0,1]"}), Not(Contains(dark)));
+  const std::string endless = "media.0.shape={type='unbounded'}", glow = "media.0.emission=[0,0,1]";
+  const std::string clear = "media.0.sigma_s=[1,1,0]", black = "media.0.sigma_a=[1,1,0]";
+  EXPECT_THAT(warnings({endless, glow, clear, black}), Contains(bright));
+  EXPECT_THAT(warnings({glow, clear, black}), Not(Contains(bright)));
+  EXPECT_THAT(warnings({endless, glow, clear}), Not(Contains(bright)));
+  EXPECT_THAT(warnings({endless, "media.0.emission=[1,0,0]", clear, black}), Not(Contains(bright)));
+}
+
 TEST(Summary, warns) {
   const auto warnings = [](const std::vector<Override>& changes) {
     return summary_with(changes).warnings;

@@ -191,6 +191,13 @@ void warn_of_medium(const Medium& medium, const MediumSummary& fog,
                     opaque_after, *fog.across));
   if (medium.sigma_s == Rgb<double>() && medium.emission == Rgb<double>())
     warnings.push_back("the medium scatters nothing: no shafts of light can be seen");
+  if (!std::holds_alternative<Unbounded>(medium.shape)) return;
+  for (std::size_t c = 0; c < 3; ++c)
+    if (medium.emission[c] > 0 && !(medium.sigma_t[c] > 0)) {
+      warnings.push_back(
+          "fog without an end glows and lets all light pass: it is bright without end");
+      return;
+    }
 }
 
 /// Rays start above surfaces by what single precision takes: more than a thousandth of all objects
@@ -259,7 +266,9 @@ std::vector<std::string> warnings_before(const Scene& scene) {
     warnings.push_back(scene.objects.empty()
                            ? "the scene is empty: the picture shows the background only"
                            : "no medium: the picture shows surfaces only");
-  else if (scene.lights.empty())
+  else if (scene.lights.empty() && std::ranges::all_of(scene.media, [](const Medium& medium) {
+             return medium.emission == Rgb<double>();
+           }))
     warnings.push_back("no light: the fog stays dark");
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (std::visit([](const auto& l) { return l.irradiance == Rgb<double>(); }, scene.lights[i]))
