@@ -26,6 +26,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 /// The scene of a frame of "film.toml".
@@ -474,18 +475,81 @@ TEST(MovingModel, moves_what_stands_on_what_moves_and_the_camera) {
   EXPECT_EQ(std::get<Box>(start.media[0].shape).min, std::get<Box>(end.media[0].shape).min);
 }
 
-TEST(MovingModel, says_what_it_leaves_out) {
+TEST(MovingModel, takes_the_shapes_of_morph_targets) {
   MovingTriangle model;
   model.json["meshes"][0]["primitives"][0]["targets"] = {
-      {{"POSITION", model.positions({0, 0, 0, 0, 0, 1, 0, 0, 0})}}};
-  model.move("weights", {0, 1}, "SCALAR", 1, {0, 1});
+      {{"POSITION", model.positions({0, 0, 0, 0, 0, 1, 0, 0, 0})}},
+      {{"POSITION", model.positions({0, 0, 0, 0, 4, 0, 0, 0, 0})}},
+      {{"POSITION", model.positions({0, 0, 0, 9, 9, 9, 0, 0, 0})}}};
+  expect_near(model.corner_at(0), {1, 0, 0});
+  model.json["meshes"][0]["weights"] = {0.5, 0, 0};
+  expect_near(model.corner_at(0), {1, 0, 0.5});
+  model.json["nodes"][0]["weights"] = {-1, 0.25, 0};
+  model.json["nodes"][0]["scale"] = {1, 1, 2};
+  expect_near(model.corner_at(0), {1, 1, -2});
+  model.move("weights", {0, 2}, "SCALAR", 1, {0, 0, 0, 1, 0.5, 0});
+  expect_near(model.corner_at(1), {1, 1, 1});
+  model.json["animations"].clear();
+  // Slopes in, values, slopes out of each key.
+  model.move("weights", {0, 1}, "SCALAR", 1, {0, 0, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0},
+             "CUBICSPLINE");
+  expect_near(model.corner_at(0.5), {1, 4 * (8 * 0.125), 2 * 0.5});
+  model.json["animations"].clear();
+  model.move("weights", {0, 2}, "SCALAR", 1, {0, 0, 0, 1, 0.5});
+  EXPECT_THAT(model.error(), HasSubstr("sampler.output: 5 elements"));
+}
+
+TEST(MovingModel, follows_the_joints_of_its_skin) {
+  MovingTriangle model;
+  auto& attributes = model.json["meshes"][0]["primitives"][0]["attributes"];
+  // All of (0, 0, 0) to joint 0; of (1, 0, 0) a quarter to joint 0, the rest, in whole numbers that
+  // make 200, to joint 1; (0, 1, 0) to nothing.
+  attributes["JOINTS_0"] = model.accessor(
+      std::vector<std::uint8_t>{0, 0, 0, 0, 0, 1, 0, 9, 9, 9, 9, 9}, 5121, "VEC4", 4);
+  attributes["WEIGHTS_0"] = model.accessor(
+      std::vector<std::uint8_t>{255, 0, 0, 0, 50, 150, 0, 0, 0, 0, 0, 0}, 5121, "VEC4", 4);
+  model.json["accessors"].back()["normalized"] = true;
+  model.json["nodes"][0]["skin"] = 0;
+  model.json["nodes"][0]["translation"] = {100, 0, 0};  // a skin does not heed it
+  model.json["nodes"].push_back({{"translation", {0, 0, 4}}, {"children", {2}}});
+  model.json["nodes"].push_back({{"translation", {1, 0, 0}}, {"scale", {2, 2, 2}}});
+  const std::vector<float> bind = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
+                                   1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 8, 1};
+  model.json["skins"] = {
+      {{"joints", {1, 2}}, {"inverseBindMatrices", model.accessor(bind, 5126, "MAT4", 16)}}};
+  // Joint 0 takes the corner to (1, 0, 4); joint 1 by way of (0, 0, 8) to (1, 0, 4 + 16).
+  expect_near(model.corner_at(0), {1, 0, 16});
+  const Folder folder;
+  write_bytes(folder / "a.glb", model.glb());
+  const Model still = load_model(folder / "a.glb");
+  EXPECT_THAT(still.remarks, IsEmpty());
+  expect_near(Vec3<double>(std::get<Mesh>(still.objects[0].geometry).positions[2]), {100, 1, 0});
+
+  model.node_index = 2;
+  model.move("translation", {0, 1}, "VEC3", 3, {1, 0, 0, 5, 0, 0});
+  expect_near(model.corner_at(1), {4, 0, 16});
+
+  model.json["skins"][0].erase("inverseBindMatrices");  // then they are as they stand
+  expect_near(model.corner_at(0), {0.25 + 0.75 * 3, 0, 4});
+  model.json["skins"][0]["joints"] = {1};
+  EXPECT_THAT(model.error(), HasSubstr("vertex 1 is bound to joint 1; a joint below 1"));
+  model.json["skins"][0] = {{"joints", {1, 2}}, {"inverseBindMatrices", 0}};
+  EXPECT_THAT(model.error(), HasSubstr("accessors[0] has elements of another type"));
+  model.json["skins"][0]["joints"] = {1, 7};
+  EXPECT_THAT(model.error(), HasSubstr("skins[0].joints[1]: 7; an index"));
+  model.json["skins"][0] = {{"joints", {1, 2}}};
+  model.json["scenes"] = {{{"nodes", {0}}}};
+  expect_near(model.corner_at(0), {101, 0, 0});  // its joints are not in the scene
+}
+
+TEST(MovingModel, says_what_it_leaves_out) {
+  MovingTriangle model;
   model.move("translation", {0, 1}, "VEC3", 3, {0, 0, 0, 2, 0, 0});
   model.move("translation", {0, 1}, "VEC3", 3, {0, 0, 0, 0, 2, 0});
   const Folder folder;
   write_bytes(folder / "a.glb", model.glb());
   EXPECT_THAT(load_model(folder / "a.glb").remarks,
-              ElementsAre("where several animations move the same node, the first does",
-                          "meshes do not change shape: morph targets are left out"));
+              ElementsAre("where several animations move the same node, the first does"));
   expect_near(model.corner_at(1), {3, 0, 0});
 }
 

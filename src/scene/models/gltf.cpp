@@ -34,7 +34,7 @@ struct GltfFile {
     const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(document, motion.poses(seconds));
     Model model;
     model.remarks = remarks;
-    gltf::Collector collector(document, materials);
+    gltf::Collector collector(document, materials, nodes);
     for (const gltf::PlacedNode& node : nodes) collector.add(node);
     model.objects = collector.finish(model.remarks);
     if (model.objects.empty())

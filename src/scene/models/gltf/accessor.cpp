@@ -157,4 +157,34 @@ std::uint32_t Accessor::integer(std::size_t i) const {
   return decoded_integers_.empty() ? elements_.integer(i) : decoded_integers_[i];
 }
 
+std::vector<Affine> read_matrices(const Document& document, int index, std::size_t count,
+                                  const std::string& where) {
+  const tinygltf::Accessor& accessor = document.model.accessors[std::size_t(index)];
+  const auto fail = [&](const std::string& reason) {
+    throw Error(fmt::format("{}: {}: accessors[{}] {}", document.file, where, index, reason));
+  };
+  if (accessor.type != TINYGLTF_TYPE_MAT4 ||
+      accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    fail("has elements of another type; MAT4 of floats");
+  if (accessor.bufferView < 0 || accessor.sparse.isSparse) fail("is sparse; all matrices");
+  if (accessor.count < count) fail(fmt::format("has {} matrices; {}", accessor.count, count));
+  constexpr std::size_t size = 16 * sizeof(float);
+  const std::size_t told = document.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
+  const std::size_t stride = told > 0 ? told : size;
+  std::vector<Affine> matrices;
+  if (count == 0) return matrices;
+  const std::byte* at =
+      locate(document, accessor.bufferView, accessor.byteOffset, count, size, stride, where);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<Vec3<double>, 4> columns;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::byte* column = at + i * stride + 4 * c * sizeof(float);
+      columns[c] = Vec3<double>(load<float>(column), load<float>(column + sizeof(float)),
+                                load<float>(column + 2 * sizeof(float)));
+    }
+    matrices.push_back({columns[0], columns[1], columns[2], columns[3]});
+  }
+  return matrices;
+}
+
 }  // namespace airlight::gltf

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/affine.h"
 #include "scene/models/gltf/document.h"
 
 namespace airlight::gltf {
@@ -46,5 +47,9 @@ class Accessor {
   std::vector<std::array<float, 4>> decoded_;  ///< of a sparse accessor
   std::vector<std::uint32_t> decoded_integers_;
 };
+
+/// The first `count` matrices of an accessor. Throws Error if it has others, or fewer.
+std::vector<Affine> read_matrices(const Document& document, int index, std::size_t count,
+                                  const std::string& where);
 
 }  // namespace airlight::gltf

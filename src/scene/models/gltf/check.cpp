@@ -49,7 +49,7 @@ class Checker {
     if (!root_.value->is_object()) fail("the document", shown(*root_.value), "an object");
     for (const char* list :
          {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "images", "textures",
-          "samplers", "materials", "cameras", "animations"})
+          "samplers", "materials", "cameras", "animations", "skins"})
       array(root_, list);
     asset();
     extensions();
@@ -65,6 +65,7 @@ class Checker {
     each(root_, "samplers", [&](const Place& p) { sampler(p); });
     each(root_, "materials", [&](const Place& p) { material(p); });
     each(root_, "cameras", [&](const Place& p) { camera(p); });
+    each(root_, "skins", [&](const Place& p) { skin(p); });
     each(root_, "animations", [&](const Place& p) { animation(p); });
     if (const auto lights = extension(root_, "KHR_lights_punctual"))
       each(*lights, "lights", [&](const Place& p) { light(p); });
@@ -239,6 +240,8 @@ class Checker {
     indices(node, "children", "nodes");
     index(node, "mesh", "meshes");
     index(node, "camera", "cameras");
+    index(node, "skin", "skins");
+    weights(node);
     numbers(node, "matrix", 16);
     numbers(node, "translation", 3);
     numbers(node, "rotation", 4);
@@ -250,16 +253,31 @@ class Checker {
     in_list(*member(*punctual, "light", required), lights ? lights->value->size() : 0, "lights");
   }
 
+  void weights(const Place& parent) const {
+    if (const auto list = array(parent, "weights")) numbers(parent, "weights", list->value->size());
+  }
+
+  void skin(const Place& skin) const {
+    array(skin, "joints", required);
+    indices(skin, "joints", "nodes");
+    index(skin, "inverseBindMatrices", "accessors");
+  }
+
   void mesh(const Place& mesh) const {
     text(mesh, "name");
+    weights(mesh);
     each(
         mesh, "primitives", [&](const Place& p) { primitive(p); }, required);
   }
 
+  void attributes(const Place& attributes) const {
+    for (const auto& [key, value] : attributes.value->items())
+      in_list({&value, attributes.below(key)}, count("accessors"), "accessors");
+  }
+
   void primitive(const Place& primitive) const {
-    const auto attributes = object(primitive, "attributes", required);
-    for (const auto& [key, value] : attributes->value->items())
-      in_list({&value, attributes->below(key)}, count("accessors"), "accessors");
+    attributes(*object(primitive, "attributes", required));
+    each(primitive, "targets", [&](const Place& target) { attributes(target); });
     index(primitive, "indices", "accessors");
     index(primitive, "material", "materials");
     integer(primitive, "mode", 0, 6);

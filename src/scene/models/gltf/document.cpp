@@ -84,6 +84,7 @@ Document read_document(const std::filesystem::path& path) {
           parse_structure(json, file),
           list_images(json),
           json.value("animations", Json::array()),
+          json.value("skins", Json::array()),
           extensions_left_out(json),
           std::move(buffers)};
 }

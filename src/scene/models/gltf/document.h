@@ -18,7 +18,7 @@ struct Document {
   std::vector<std::byte> contents;               ///< of the file; the binary chunk is a part of it
   tinygltf::Model model;                         ///< without buffers, images, animations and skins
   std::vector<tinygltf::Image> images;           ///< only URI and buffer view
-  Json animations;                               ///< a list
+  Json animations, skins;                        ///< lists
   std::vector<std::string> extensions_left_out;  ///< used by it and read by nobody
   Buffers buffers;
 

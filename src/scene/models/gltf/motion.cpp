@@ -65,7 +65,6 @@ Motion::Motion(const Document& document, std::vector<std::string>& remarks) {
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const Json& target = channels[c].at("target");
       const std::string path = target.at("path");
-      if (path == "weights") continue;  // of morph targets, which the mesh tells of
       if (!target.contains("node"))
         ++left_out;
       else
@@ -92,7 +91,9 @@ void Motion::add(const Document& document, const Json& animation, const Json& ch
   const std::string path = target.at("path");
   if (path == "rotation") result.path = Path::rotation;
   if (path == "scale") result.path = Path::scale;
-  if (document.model.nodes[std::size_t(result.node)].matrix.size() == 16)
+  if (path == "weights") result.path = Path::weights;
+  if (result.path != Path::weights &&
+      document.model.nodes[std::size_t(result.node)].matrix.size() == 16)
     throw Error(fmt::format(
         "{}: {}: it moves nodes[{}], which has a matrix; translation, rotation and scale",
         document.file, where, result.node));
@@ -110,21 +111,24 @@ void Motion::add(const Document& document, const Json& animation, const Json& ch
           fmt::format("{}: {}.sampler.input: time {} is not after the one before; ascending "
                       "times",
                       document.file, where, i));
-  const bool turns = result.path == Path::rotation;
+  const auto [type, components] =
+      result.path == Path::weights    ? std::pair(TINYGLTF_TYPE_SCALAR, std::size_t{1})
+      : result.path == Path::rotation ? std::pair(TINYGLTF_TYPE_VEC4, std::size_t{4})
+                                      : std::pair(TINYGLTF_TYPE_VEC3, std::size_t{3});
   result.values =
-      numbers_of(document, sampler.at("output"), turns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
-                 turns ? 4 : 3, where + ".sampler.output");
-  const std::size_t elements = result.values.size() / (turns ? 4 : 3);
+      numbers_of(document, sampler.at("output"), type, components, where + ".sampler.output");
+  const std::size_t elements = result.values.size() / components;
   const std::size_t wanted = result.times.size() * (result.way == Way::cubic_spline ? 3 : 1);
-  if (elements != wanted)
+  // Of weights every key has as many as there are targets.
+  if (result.path == Path::weights ? elements % wanted != 0 : elements != wanted)
     throw Error(fmt::format("{}: {}.sampler.output: {} elements; {} for {} keys", document.file,
                             where, elements, wanted, result.times.size()));
   channels_.push_back(std::move(result));
 }
 
 std::vector<double> Motion::Channel::at(double seconds) const {
-  const std::size_t n = path == Path::rotation ? 4 : 3;
   const bool cubic = way == Way::cubic_spline;
+  const std::size_t n = values.size() / (times.size() * (cubic ? 3 : 1));
   const auto element = [&](std::size_t i) {
     return Numbers(values.begin() + std::ptrdiff_t(i * n),
                    values.begin() + std::ptrdiff_t((i + 1) * n));
@@ -159,6 +163,7 @@ Poses Motion::poses(double seconds) const {
     tinygltf::Node& node = poses.at(channel.node);
     (channel.path == Path::translation ? node.translation
      : channel.path == Path::rotation  ? node.rotation
+     : channel.path == Path::weights   ? node.weights
                                        : node.scale) = channel.at(seconds);
   }
   return poses;

@@ -10,9 +10,9 @@ namespace airlight::gltf {
 /// Nodes that stand otherwise than their document says, by their index.
 using Poses = std::map<int, tinygltf::Node>;
 
-/// The translations, rotations and scales that a document's animations give its nodes (glTF 2.0
-/// section 3.11). All animations play together, from their start; before its first key and after
-/// its last a value is held.
+/// The translations, rotations, scales and weights of morph targets that a document's animations
+/// give its nodes (glTF 2.0 section 3.11). All animations play together, from their start; before
+/// its first key and after its last a value is held.
 class Motion {
  public:
   /// Reads all keys. `remarks` learns what is left out. Throws Error, with the place in the
@@ -26,7 +26,7 @@ class Motion {
   Poses poses(double seconds) const;
 
  private:
-  enum class Path { translation, rotation, scale };
+  enum class Path { translation, rotation, scale, weights };
   enum class Way { linear, step, cubic_spline };
 
   /// One property of one node.
@@ -34,9 +34,9 @@ class Motion {
     int node;
     Path path;
     Way way;
-    std::vector<double> times;   ///< of the keys, ascending  [s]
-    std::vector<double> values;  ///< 3 or 4 a key; of a cubic spline 3 times that: slope in, value,
-                                 ///< slope out
+    std::vector<double> times;  ///< of the keys, ascending  [s]
+    /// As many for each key; of a cubic spline 3 times that: slope in, value, slope out.
+    std::vector<double> values;
 
     std::vector<double> at(double seconds) const;
   };

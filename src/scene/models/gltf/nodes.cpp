@@ -117,9 +117,12 @@ std::vector<PlacedNode> place_nodes(const Document& document, const Poses& poses
     waiting.pop_back();
     const tinygltf::Node& node = document.model.nodes[std::size_t(next.node)];
     const auto posed = poses.find(next.node);
+    const tinygltf::Node& now = posed == poses.end() ? node : posed->second;
     next.to_world =
-        next.to_world * to_parent(posed == poses.end() ? node : posed->second,
-                                  fmt::format("{}: nodes[{}]", document.file, next.node));
+        next.to_world * to_parent(now, fmt::format("{}: nodes[{}]", document.file, next.node));
+    next.weights = now.weights;
+    if (next.weights.empty() && node.mesh >= 0)
+      next.weights = document.model.meshes[std::size_t(node.mesh)].weights;
     placed.push_back(next);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       waiting.push_back({*child, next.to_world});

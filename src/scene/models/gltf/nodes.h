@@ -12,6 +12,7 @@ namespace airlight::gltf {
 struct PlacedNode {
   int node;  ///< index into the document's nodes
   Affine to_world;
+  std::vector<double> weights = {};  ///< of its mesh's morph targets; 0 beyond its end
 };
 
 /// The nodes of the document's default scene, or else the first, or else all, parents before

@@ -9,6 +9,7 @@
 
 #include "error.h"
 #include "scene/models/gltf/accessor.h"
+#include "scene/models/gltf/vertices.h"
 #include "scene/models/normals.h"
 
 namespace airlight::gltf {
@@ -60,16 +61,6 @@ std::array<std::size_t, 3> triangle(int mode, std::size_t i) {
   return {i, i + 1 + i % 2, i + 2 - i % 2};
 }
 
-/// An accessor of one of the primitive's attributes, if it has it.
-std::optional<Accessor> attribute(const Document& document, const tinygltf::Primitive& primitive,
-                                  const std::string& name, int type, const std::string& where) {
-  const auto found = primitive.attributes.find(name);
-  if (found == primitive.attributes.end()) return std::nullopt;
-  return Accessor(document, found->second, type, where + ".attributes." + name);
-}
-
-Vec3<double> vec3(const std::array<float, 4>& v) { return {v[0], v[1], v[2]}; }
-
 std::array<float, 2> place(const std::array<float, 6>& map, const std::array<float, 4>& uv) {
   const float u = map[0] * uv[0] + map[1] * uv[1] + map[2];
   const float v = map[3] * uv[0] + map[4] * uv[1] + map[5];
@@ -85,60 +76,60 @@ void add_once(const std::string& name, std::vector<std::string>& names) {
 void Collector::add(const PlacedNode& placed) {
   const tinygltf::Node& node = document_.model.nodes[std::size_t(placed.node)];
   if (node.mesh < 0) return;
-  saw_skin_ = saw_skin_ || node.skin >= 0;
+  std::optional<std::vector<Affine>> joints;
+  if (node.skin >= 0) {
+    joints = joints_of(document_, node.skin, nodes_);
+    saw_lost_joints_ = saw_lost_joints_ || !joints;
+  }
   const auto& primitives = document_.model.meshes[std::size_t(node.mesh)].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i)
-    add(primitives[i], placed.to_world, fmt::format("meshes[{}].primitives[{}]", node.mesh, i));
+    add(primitives[i], placed, joints ? &*joints : nullptr,
+        fmt::format("meshes[{}].primitives[{}]", node.mesh, i));
 }
 
-void Collector::add(const tinygltf::Primitive& primitive, const Affine& to_world,
-                    const std::string& where) {
-  saw_morphs_ = saw_morphs_ || !primitive.targets.empty();
+void Collector::add(const tinygltf::Primitive& primitive, const PlacedNode& node,
+                    const std::vector<Affine>* joints, const std::string& where) {
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
     saw_lines_ = true;
     return;
   }
-  const auto positions = attribute(document_, primitive, "POSITION", TINYGLTF_TYPE_VEC3, where);
-  if (!positions) return;  // glTF leaves to extensions what this means
+  if (!primitive.attributes.contains("POSITION"))
+    return;  // glTF leaves to extensions what this means
   const std::size_t material =
       primitive.material >= 0 ? std::size_t(primitive.material) : materials_.size() - 1;
   const GltfMaterial& look = materials_[material];
-  const auto normals = attribute(document_, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, where);
+  const Vertices vertices(document_, primitive, node, joints, where);
   const std::string uv_name = fmt::format("TEXCOORD_{}", look.uv_set);
-  const auto uvs = look.has_texture()
-                       ? attribute(document_, primitive, uv_name, TINYGLTF_TYPE_VEC2, where)
-                       : std::optional<Accessor>{};
-  const auto hold = [&](const std::optional<Accessor>& other, const std::string& name) {
-    if (other && other->size() != positions->size())
-      throw Error(fmt::format("{}: {}.attributes.{}: {} elements; as many as positions, {}",
-                              document_.file, where, name, other->size(), positions->size()));
-  };
-  hold(normals, "NORMAL");
-  hold(uvs, uv_name);
+  const auto uvs = look.has_texture() ? find_attribute(document_, primitive.attributes, uv_name,
+                                                       TINYGLTF_TYPE_VEC2, where + ".attributes")
+                                      : std::optional<Accessor>{};
+  if (uvs && uvs->size() != vertices.size())
+    throw Error(fmt::format("{}: {}.attributes.{}: {} elements; as many as positions, {}",
+                            document_.file, where, uv_name, uvs->size(), vertices.size()));
   saw_colours_ = saw_colours_ || primitive.attributes.contains("COLOR_0");
 
-  const Corners corners(document_, primitive, positions->size(), where);
+  const Corners corners(document_, primitive, vertices.size(), where);
   const std::size_t triangles = count_triangles(primitive.mode, corners.size());
   if ((triangles_ += triangles) > most_triangles)
     throw Error(fmt::format("{}: {}: more than {} triangles up to here; fewer", document_.file,
                             where, most_triangles));
 
-  Mesh& mesh = part_for(material, normals.has_value()).mesh;
-  if (copied_as_.size() < positions->size()) {
-    copied_as_.resize(positions->size());
-    copied_for_.resize(positions->size(), 0);
+  Mesh& mesh = part_for(material, vertices.have_normals()).mesh;
+  if (copied_as_.size() < vertices.size()) {
+    copied_as_.resize(vertices.size());
+    copied_for_.resize(vertices.size(), 0);
   }
   ++primitive_number_;
   const auto copy = [&](std::uint32_t vertex) {
     if (copied_for_[vertex] == primitive_number_) return copied_as_[vertex];
-    const Vec3<float> p(to_world.point(vec3(positions->floats(vertex))));
+    const auto [position, normal] = vertices[vertex];
+    const Vec3<float> p(position);
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       throw Error(
           fmt::format("{}: {}.attributes.POSITION: element {} is not finite; finite numbers",
                       document_.file, where, vertex));
     mesh.positions.push_back(p);
-    if (normals)
-      mesh.normals.push_back(Vec3<float>(to_world.normal(vec3(normals->floats(vertex)))));
+    if (vertices.have_normals()) mesh.normals.push_back(Vec3<float>(normal));
     if (look.has_texture())
       mesh.uvs.push_back(uvs ? place(look.uv_map, uvs->floats(vertex)) : std::array<float, 2>{});
     copied_for_[vertex] = primitive_number_;
@@ -161,8 +152,8 @@ Collector::Part& Collector::part_for(std::size_t material, bool has_normals) {
 std::vector<Object> Collector::finish(std::vector<std::string>& remarks) {
   if (saw_lines_) remarks.push_back("points and lines of the file are left out");
   if (saw_colours_) remarks.push_back("colours of vertices are left out");
-  if (saw_skin_) remarks.push_back("skinned meshes stand as they were modelled");
-  if (saw_morphs_) remarks.push_back("meshes do not change shape: morph targets are left out");
+  if (saw_lost_joints_)
+    remarks.push_back("skinned meshes without all their joints stand as they were modelled");
   std::vector<Object> objects;
   std::vector<std::string> glowing, filtering;
   for (Part& part : parts_) {

@@ -10,8 +10,10 @@ namespace airlight::gltf {
 /// Collects the triangles of a document in world space, a mesh for each material.
 class Collector {
  public:
-  Collector(const Document& document, const std::vector<GltfMaterial>& materials)
-      : document_(document), materials_(materials) {}
+  /// `nodes`: all of the scene, where skins find their joints.
+  Collector(const Document& document, const std::vector<GltfMaterial>& materials,
+            const std::vector<PlacedNode>& nodes)
+      : document_(document), materials_(materials), nodes_(nodes) {}
 
   /// Adds a node's mesh. Throws Error, with the place in the document, if an index or a position is
   /// no good.
@@ -27,17 +29,19 @@ class Collector {
     Mesh mesh;
   };
 
-  void add(const tinygltf::Primitive& primitive, const Affine& to_world, const std::string& where);
+  void add(const tinygltf::Primitive& primitive, const PlacedNode& node,
+           const std::vector<Affine>* joints, const std::string& where);
   Part& part_for(std::size_t material, bool has_normals);
 
   const Document& document_;
   const std::vector<GltfMaterial>& materials_;
+  const std::vector<PlacedNode>& nodes_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> copied_as_,
       copied_for_;  ///< where a vertex went, and for which primitive that counts
   std::uint32_t primitive_number_ = 0;
   std::size_t triangles_ = 0;
-  bool saw_lines_ = false, saw_colours_ = false, saw_skin_ = false, saw_morphs_ = false;
+  bool saw_lines_ = false, saw_colours_ = false, saw_lost_joints_ = false;
 };
 
 }  // namespace airlight::gltf
